@@ -85,6 +85,7 @@ std::string ranking_text(const Scene& scene, const Plan& plan, const RankArgumen
 }
 
 ExitCode rank(const RankArguments& arguments) {
+  check_rank_by(arguments.by);
   const int glb = arguments.glb.empty() ? 0 : static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (glb > 0 && arguments.output.empty())
     throw usage_error("--glb: the name of the list is missing, which also names the glTF files; give -o LIST.csv");

@@ -228,16 +228,16 @@ py::tuple rank_by_robust_scores(SceneHandle& handle, std::size_t vessel, const G
     const Scene& scene = handle.whole("core");
     const Plan plan(scene, false);
     std::vector<std::vector<BestGrip>> lists(scene.vessels.size() * plan.hand_scales());
-    std::vector<BestGrip>& list = lists[vessel * plan.hand_scales()];
+    const std::size_t own = vessel * plan.hand_scales();
     for (std::size_t i = 0; i < grips.count(); ++i) {
-      list.emplace_back().candidate.index = i;
-      list.back().grip = grips.grip(i);
+      lists[own].emplace_back().candidate.index = i;
+      lists[own].back().grip = grips.grip(i);
     }
     const OpenBackend open = [](const Scene& other, const FieldSet& fields) {
       return open_backend(other, fields, "core", Precision::full, 0);
     };
     if (!rank_robustly(open, scene, plan, best, &stop, lists)) return;
-    for (const BestGrip& grip : list) {
+    for (const BestGrip& grip : lists[own]) {
       places.push_back(static_cast<std::size_t>(grip.candidate.index));
       lows.push_back(grip.robust.low);
       means.push_back(grip.robust.mean);

@@ -417,12 +417,17 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene) 
   return weights;
 }
 
+void check_rank_by(const std::string& text) {
+  for (const char* known : {"", "score", "robust", "worst_effort", "push"})
+    if (text == known) return;
+  throw usage_error(fmt::format("--rank-by '{}'; allowed: score, robust, worst_effort or push", text.substr(0, 60)));
+}
+
 RankBy read_rank_by(const std::string& text, const Scene& scene) {
+  check_rank_by(text);
   if (text.empty()) return scene.robust ? RankBy::robust : RankBy::score;
   if (text == "score") return RankBy::score;
   const bool needs_effort = text == "worst_effort" || text == "push";
-  if (!needs_effort && text != "robust")
-    throw usage_error(fmt::format("--rank-by '{}'; allowed: score, robust, worst_effort or push", text.substr(0, 60)));
   if (text == "robust" && !scene.robust)
     throw usage_error(
         "--rank-by robust needs [robust], which the scene of this file does not have; allowed: score, worst_effort or push");

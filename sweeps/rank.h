@@ -30,6 +30,8 @@ enum class RankBy { score, robust, worst_effort, push };
 // From "score", "robust", "worst_effort" or "push"; empty: "robust" in a scene with [robust], else "score". Throws Error (usage), also
 // for what the scene does not have.
 RankBy read_rank_by(const std::string& text, const Scene& scene);
+// The same before a scene is known: throws for a text that is none of these.
+void check_rank_by(const std::string& text);
 
 struct RankRequest {
   std::string weights;             // as of read_weights; empty: the sweep's own scores

@@ -142,7 +142,7 @@ class Bash(unittest.TestCase):
 
     def test_values_are_those_that_the_program_allows(self):
         needed = {"sweep": ["small"], "grip": ["small", "--vessel", "tumbler", "--height-mm", "50"],
-                  "trials": ["small", "-o", "nowhere"], "study": ["-o", "nowhere"], "live": []}
+                  "trials": ["small", "-o", "nowhere"], "rank": ["none.nc"], "study": ["-o", "nowhere"], "live": []}
         table = bash_run("declare -f _wholehand_value")[0]
         rows = re.findall(r"'(\S+) (--\S+)'[^)]*\)\s*echo '\w+ ([^-'].*)'", table)
         checked = 0

@@ -82,6 +82,7 @@ class Best(InFolder):
         for by in ("score", "worst_effort", "push"):
             self.same(wh.best(data, n=4, by=by), self.ranked("--best", 4, "--rank-by", by))
         self.assertGreater(wh.best(data, n=4).robust_low.values.max(), 0)
+        data.close()
         without = self.data_of(SEVERAL)
         self.assertIn("no [robust]", str(self.refused(wh.best, without, by="robust")))
 
