@@ -98,7 +98,7 @@ std::string new_scene(const NewScene& wanted) {
   if (!is_plain_name(wanted.name))
     throw usage_error(fmt::format("name = {}; allowed: a letter, then letters, digits, '_', '-' or '.', at most {} in all",
                                   in_quotes(wanted.name), ranges::LARGEST_NAME));
-  if (!is_plain_name(wanted.shape))
+  if (wanted.shape != "cylinder" && wanted.shape != "flask" && wanted.shape != "conical")
     throw usage_error(fmt::format("shape = {}; allowed: cylinder, flask or conical", in_quotes(wanted.shape)));
   if (wanted.fill && !wanted.mesh.empty())
     throw usage_error("fill_ml: a mesh is solid; write the scene without it, and give its vessel an inner_outline");
