@@ -238,7 +238,8 @@ def best(
         unheld, judged = fails.isel(vessel=v).values.ravel(), plausible.isel(vessel=v).values.ravel()
         for hand in _hands(part, dims, scene):
             kept = scene._core.robust_candidates(count) if is_robust else count
-            places, robust = chooser.choose(vessel, scores, allowed & ~unheld & hand, kept), {}
+            places = chooser.choose(vessel, scores, allowed & ~unheld & hand, kept)
+            robust: dict[str, list[float]] = {}
             if efforts is not None and not (judged & ~unheld & hand).any():
                 places = chooser.choose(vessel, -efforts.isel(vessel=v).values.ravel(), allowed & hand, count)
             if is_robust:

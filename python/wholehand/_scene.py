@@ -196,10 +196,11 @@ def new(
     >>> glass = wh.new("glass", diameter_mm=70, height_mm=120, fill_ml=250)
     >>> glass
     <Scene glass: glass>
-    >>> wh.new("flask", shape="flask", diameter_mm=70, height_mm=120)
-    Traceback (most recent call last):
-        ...
-    wholehand.Error: [[vessel]] lacks 'neck_mm'; allowed: a flask with diameter_mm, neck_mm, height_mm
+    >>> try:
+    ...     wh.new("flask", shape="flask", diameter_mm=70, height_mm=120)
+    ... except wh.Error as error:
+    ...     print(error)
+    [[vessel]] lacks 'neck_mm'; allowed: a flask with diameter_mm, neck_mm, height_mm
     """
     known = _core.new_scene_keys()
     for key, value in numbers.items():
