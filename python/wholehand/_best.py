@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _AXES = ("azimuth", "obliquity", "roll", "offset", "hand_scale", "height", "height_fraction", "point")
+_ROBUST = ("robust_low", "robust_mean", "robust_share")
 _BEST_WHERE_NONE = 20  # as the program, where neither scene nor sweep lists any
 
 
@@ -55,7 +56,7 @@ class _Chooser:
         """Those of the candidates' places that are listed, in their order, and their robust scores."""
         columns = [self.column(name, places) for name in _core.GRIP_COLUMNS]
         order, *scores = _core.rank_by_robust_scores(self.scene._core, self.scene._core.find_vessel(vessel), columns, count)
-        return tuple(at[order] for at in places), dict(zip(("robust_low", "robust_mean", "robust_share"), scores))
+        return tuple(at[order] for at in places), dict(zip(_ROBUST, scores))
 
     def choose(self, vessel: str, scores: npt.NDArray[Any], eligible: npt.NDArray[np.bool_], count: int) -> tuple[Any, ...]:
         """The places of the chosen grips along the dimensions."""
@@ -240,9 +241,11 @@ def best(
             kept = scene._core.robust_candidates(count) if is_robust else count
             places = chooser.choose(vessel, scores, allowed & ~unheld & hand, kept)
             robust: dict[str, list[float]] = {}
-            if efforts is not None and not (judged & ~unheld & hand).any():
+            if efforts is not None and not (judged & ~unheld & hand).any():  # in the order of their efforts, as in the program
                 places = chooser.choose(vessel, -efforts.isel(vessel=v).values.ravel(), allowed & hand, count)
-            if is_robust:
+                if is_robust:
+                    robust = {name: [float("nan")] * len(places[0]) for name in _ROBUST}
+            elif is_robust:
                 places, robust = chooser.rank_robustly(vessel, places, count)
             pieces.append(_listed(part, dims, chooser, places).assign({name: ("grip", values) for name, values in robust.items()}))
     return xr.concat(pieces, "grip", combine_attrs="override")
