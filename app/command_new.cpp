@@ -32,15 +32,6 @@ std::string option_of(const std::string& key) {
   return option;
 }
 
-const Quantity& range_of(const std::string& key) {
-  if (key == "height_mm" || key == "shoulder_mm") return ranges::HEIGHT;
-  if (key == "upright_mm") return ranges::UPRIGHT;
-  if (key == "wall_mm") return ranges::WALL;
-  if (key == "mass_kg") return ranges::MASS;
-  if (key == "density_kg_m3") return ranges::VESSEL_DENSITY;
-  return key == "mesh_scale" ? ranges::MESH_SCALE : ranges::DIAMETER;
-}
-
 // A number in the unit of its option, as it stands in the text.
 double checked(const std::string& text, const std::string& option, const Quantity& range) {
   parse_quantity(text, option, range);
@@ -55,9 +46,9 @@ ExitCode write_new(const NewArguments& arguments) {
   wanted.name = file.stem().string();
   if (!arguments.shape.empty()) wanted.shape = arguments.shape;
   for (std::size_t k = 0; k < arguments.numbers.size(); ++k) {
-    const std::string& key = new_scene_keys()[k];
+    const NewSceneKey& key = new_scene_keys()[k];
     if (!arguments.numbers[k].empty())
-      wanted.numbers.emplace_back(key, checked(arguments.numbers[k], option_of(key), range_of(key)));
+      wanted.numbers.emplace_back(key.name, checked(arguments.numbers[k], option_of(key.name), key.range));
   }
   if (!arguments.mesh.empty()) {
     if (!std::filesystem::is_regular_file(arguments.mesh))
@@ -92,17 +83,8 @@ void add_new_command(CLI::App& app, Action& action) {
   auto* shape = add("--shape", arguments->shape, "SHAPE", "cylinder (the default), flask or conical")
                     ->check(offered("cylinder flask conical"));
   add("--mesh", arguments->mesh, "FILE", "Instead of a shape: a solid mesh (.glb, .gltf, .stl, .obj or .ply)")->excludes(shape);
-  const char* helps[] = {"Outer diameter, at the widest place",
-                         "Outer diameter of a flask's or a conical vessel's neck",
-                         "Height of a conical vessel's upright wall",
-                         "Height at which a conical vessel's neck begins",
-                         "Height of a shape",
-                         "Thickness of the wall (default: 1.5)",
-                         "Mass of an empty mesh",
-                         "Density of the wall, or of the mesh (default: 2230, glass)",
-                         "Size of a mesh's unit in m (default: 1)"};
   for (std::size_t k = 0; k < arguments->numbers.size(); ++k)
-    add(option_of(new_scene_keys()[k]), arguments->numbers[k], "N", helps[k]);
+    add(option_of(new_scene_keys()[k].name), arguments->numbers[k], "N", new_scene_keys()[k].help);
   add("--fill-ml", arguments->fill, "V", "Judge the vessel empty and with V mL (default: five fills up to the brim)");
   command->callback([arguments, &action] { action = [arguments] { return write_new(*arguments); }; });
 }

@@ -1146,10 +1146,7 @@ class ClusterSweep final : public Sweep {
     for (std::size_t list = 0; list < best.size(); ++list) {
       const auto grips = reader.take_all<Candidate>();
       if (list % static_cast<std::size_t>(team_.size()) != static_cast<std::size_t>(team_.rank())) continue;
-      for (const Candidate& candidate : grips) {
-        own[list].emplace_back().candidate = candidate;
-        own[list].back().grip = plan().grip(list / plan().hand_scales(), candidate.index);
-      }
+      for (const Candidate& candidate : grips) own[list].push_back(bare_grip(plan(), list / plan().hand_scales(), candidate));
     }
     bool is_whole = true;
     agree([&] { is_whole = complete(own, interrupt); });
@@ -1159,21 +1156,19 @@ class ClusterSweep final : public Sweep {
         completed.push_back({list, grip.candidate, grip.refined, grip.refined_score, grip.robust});
     if (team_.is_leader())
       for (auto& list : best) list.clear();
-    const auto tell_all = [&](const std::vector<CompletedGrip>& grips) {
+    const auto add_completed = [&](const std::vector<CompletedGrip>& grips) {
       for (const CompletedGrip& grip : grips) {
-        BestGrip& told = best.at(grip.list).emplace_back();
-        told.candidate = grip.candidate;
-        told.grip = plan().grip(grip.list / plan().hand_scales(), grip.candidate.index);
-        told.refined = grip.refined;
-        told.refined_score = grip.refined_score;
-        told.robust = grip.robust;
+        BestGrip& added = best.at(grip.list).emplace_back(bare_grip(plan(), grip.list / plan().hand_scales(), grip.candidate));
+        added.refined = grip.refined;
+        added.refined_score = grip.refined_score;
+        added.robust = grip.robust;
       }
     };
-    if (team_.is_leader()) tell_all(completed);
+    if (team_.is_leader()) add_completed(completed);
     PacketWriter found;
     found.put(completed);
     team_.gather(found.bytes(),
-                 [&](int, const std::string& message) { tell_all(PacketReader(message).take_all<CompletedGrip>()); });
+                 [&](int, const std::string& message) { add_completed(PacketReader(message).take_all<CompletedGrip>()); });
     return all_of(is_whole);
   }
 

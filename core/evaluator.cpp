@@ -482,7 +482,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     row.put(FIELD_SCORE, 0, wholehand::is_eligible(status) ? states_.weighted(terms) : Real(0));
   }
 
-  // Of a scene without efforts, and of an implausible grip, it is not known.
+  // False in a scene without efforts and for an implausible grip: nobody knows there.
   static bool is_not_held(bool is_plausible, const LargestForces& largest) {
     return is_plausible && largest.effort && !effort_holds(*largest.effort);
   }

@@ -10,14 +10,10 @@
 #include "evidence/check_sample.h"
 #include "host/grip_backend.h"
 #include "system/clock.h"
-#include "system/output.h"
 #include "system/progress.h"
-#include "system/readable.h"
 
 namespace wholehand {
 namespace {
-
-constexpr double LONG_CHECK = 5;  // s: from here on it is said how long it takes
 
 // Where a row is at its worst.
 CheckedQuantity located(const Comparison& row, const Scene& scene, const std::vector<CheckSample>& samples) {
@@ -164,7 +160,7 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
       total += evaluations;
       seconds += static_cast<double>(evaluations) * checking.seconds_each(v, samples[v].grips);
     }
-    if (!options.is_quiet && seconds >= LONG_CHECK) say_note("comparing takes about " + readable_duration(seconds));
+    if (!options.is_quiet) announce_time("comparing", seconds);
     std::optional<Progress> progress;  // from the first evaluation on: the device makes its kernels ready before
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       const CheckSample& sample = samples[v];

@@ -109,7 +109,7 @@ double largest_extent(const MeshFacts& facts) {
 
 const char* was(std::size_t count) { return count == 1 ? "was" : "were"; }
 
-// Of a length in m.
+// Takes m.
 std::string millimetres(double length) { return plain_text(1e3 * length, 4); }
 
 // The mesh's extent along an axis, mm.

@@ -242,7 +242,11 @@ void bind_scene(py::module_& module) {
   module.def("parse_scene", &parse_text, py::arg("text"), py::arg("name"));
   module.def("scene_of_dataset", &scene_of_dataset, py::arg("text"), py::arg("source"), py::arg("scene_file"), py::arg("keys"),
              py::arg("lattices"), py::call_guard<py::gil_scoped_release>());
-  module.def("new_scene_keys", &new_scene_keys);
+  module.def("new_scene_keys", [] {
+    std::vector<std::string> names;
+    for (const NewSceneKey& key : new_scene_keys()) names.emplace_back(key.name);
+    return names;
+  });
   module.def("new_scene", &new_text, py::arg("name"), py::arg("shape"), py::arg("mesh"), py::arg("numbers"), py::arg("fill"));
   module.def("shipped_scenes", &shipped_scenes);
 }

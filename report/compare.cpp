@@ -17,6 +17,7 @@
 #include "report/html.h"
 #include "report/page.h"
 #include "report/scene.h"
+#include "report/source.h"
 #include "sweeps/grip_lists.h"
 #include "system/readable.h"
 #include "system/version.h"
@@ -266,20 +267,6 @@ CompareTable sums_table(const VesselSums& a, const VesselSums& b) {
   return table;
 }
 
-// "height 51.1 mm, roll -58.0 deg": by the axes that vary.
-std::string place_text(const Plan& plan, const GripInput& grip) {
-  std::string text = fmt::format("height {} mm", fixed_text(grip.height * 1e3, 1));
-  const auto add = [&](int place, const char* name, double value, int digits, const char* unit) {
-    if (plan.varies(place)) text += fmt::format(", {} {}{}", name, fixed_text(value, digits), unit);
-  };
-  add(PLACE_ROLL, "roll", degrees(grip.roll), 1, " deg");
-  add(PLACE_OBLIQUITY, "obliquity", degrees(grip.obliquity), 1, " deg");
-  add(PLACE_AZIMUTH, "azimuth", degrees(grip.azimuth), 1, " deg");
-  add(PLACE_OFFSET, "offset", grip.offset * 1e3, 1, " mm");
-  add(PLACE_HAND_SCALE, "hand scale", grip.hand_scale, 3, "");
-  return text;
-}
-
 // A's first grips and what became of them.
 CompareTable first_grips(const Side& a, std::size_t vessel_a, const VesselSums& sums_a, const Side& b, std::size_t vessel_b,
                          const VesselSums& sums_b) {
@@ -292,7 +279,7 @@ CompareTable first_grips(const Side& a, std::size_t vessel_a, const VesselSums& 
     const std::uint64_t number = now ? now->candidate.index : grip.candidate.index;  // of B, where it asks for this grip
     const bool is_asked = now || (number < b.plan.grips() && is_same_place(b.plan.grip(vessel_b, number), grip.grip));
     const auto value_b = [&](const char* name) { return is_asked ? b.value(name, vessel_b, number) : std::nan(""); };
-    table.rows.push_back({place_text(a.plan, grip.grip), std::to_string(grip.rank),
+    table.rows.push_back({grip_text(a.plan, grip.grip, fixed_text, " deg"), std::to_string(grip.rank),
                           now        ? fmt::format("rank {}", now->rank)
                           : is_asked ? status_of(b, vessel_b, number)
                                      : "not listed",

@@ -2,6 +2,7 @@
 #include "scene/new_scene.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -13,17 +14,21 @@ namespace {
 
 constexpr const char* DENSITY = "density_kg_m3";
 
-// What the text says beside a key of the vessel.
-const char* meaning_of(const std::string& key) {
-  if (key == "diameter_mm") return "outer, at the widest place";
-  if (key == "neck_mm") return "outer diameter of the neck";
-  if (key == "upright_mm") return "height of the upright wall under the cone";
-  if (key == "shoulder_mm") return "height at which the neck begins";
-  if (key == "height_mm") return "from the base to the brim";
-  if (key == "wall_mm") return "thickness of the wall";
-  if (key == "mass_kg") return "empty";
-  if (key == "mesh_scale") return "of the file's unit, in m";
-  return "of the wall: 2230 is glass, 1050 polystyrene, 7900 steel";
+constexpr NewSceneKey KEYS[] = {
+    {"diameter_mm", ranges::DIAMETER, "outer, at the widest place", "Outer diameter, at the widest place"},
+    {"neck_mm", ranges::DIAMETER, "outer diameter of the neck", "Outer diameter of a flask's or a conical vessel's neck"},
+    {"upright_mm", ranges::UPRIGHT, "height of the upright wall under the cone", "Height of a conical vessel's upright wall"},
+    {"shoulder_mm", ranges::HEIGHT, "height at which the neck begins", "Height at which a conical vessel's neck begins"},
+    {"height_mm", ranges::HEIGHT, "from the base to the brim", "Height of a shape"},
+    {"wall_mm", ranges::WALL, "thickness of the wall", "Thickness of the wall (default: 1.5)"},
+    {"mass_kg", ranges::MASS, "empty", "Mass of an empty mesh"},
+    {DENSITY, ranges::VESSEL_DENSITY, "of the wall: 2230 is glass, 1050 polystyrene, 7900 steel",
+     "Density of the wall, or of the mesh (default: 2230, glass)"},
+    {"mesh_scale", ranges::MESH_SCALE, "of the file's unit, in m", "Size of a mesh's unit in m (default: 1)"},
+};
+
+const char* comment_of(const std::string& key) {
+  return std::find_if(std::begin(KEYS), std::end(KEYS), [&](const NewSceneKey& one) { return key == one.name; })->comment;
 }
 
 void append_key(std::string& text, const std::string& key, const std::string& value, const char* comment) {
@@ -47,7 +52,7 @@ std::string vessel_table(const NewScene& wanted) {
   };
   if (wanted.mesh.empty() && !has("wall_mm")) numbers.emplace_back("wall_mm", 1.5);
   if (wanted.mesh.empty() && !has(DENSITY)) numbers.emplace_back(DENSITY, 2230);
-  for (const auto& [key, value] : numbers) append_key(text, key, fmt::format("{}", value), meaning_of(key));
+  for (const auto& [key, value] : numbers) append_key(text, key, fmt::format("{}", value), comment_of(key));
   return text;
 }
 
@@ -88,11 +93,7 @@ best = 20
 
 }  // namespace
 
-const std::vector<std::string>& new_scene_keys() {
-  static const std::vector<std::string> KEYS{"diameter_mm", "neck_mm", "upright_mm", "shoulder_mm", "height_mm",
-                                             "wall_mm",     "mass_kg", DENSITY,      "mesh_scale"};
-  return KEYS;
-}
+std::span<const NewSceneKey> new_scene_keys() { return KEYS; }
 
 std::string new_scene(const NewScene& wanted) {
   if (!is_plain_name(wanted.name))

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "scene/ranges.h"
 
 namespace wholehand {
 
@@ -17,8 +20,16 @@ struct NewScene {
   std::optional<double> fill;                           // mL; without it, fractions of what the vessel holds
 };
 
-// The numbers that may be given, with their ranges in scene/ranges.h: keys of [[vessel]].
-const std::vector<std::string>& new_scene_keys();
+// A key of [[vessel]] that takes a number: its range, what stands beside it in the text, and what it is to a user of the command.
+struct NewSceneKey {
+  const char* name;
+  Quantity range;
+  const char* comment;
+  const char* help;
+};
+
+// The numbers that may be given.
+std::span<const NewSceneKey> new_scene_keys();
 
 // The text: vessel, table, liquid (not in a mesh), hand's strength, grips, tilts, deviations and output. parse_scene reads it. Throws
 // Error (usage), which names the key and what is allowed, where parse_scene would refuse it.

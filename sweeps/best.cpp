@@ -117,6 +117,13 @@ std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const 
   return best;
 }
 
+BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candidate) {
+  BestGrip grip;
+  grip.candidate = candidate;
+  grip.grip = plan.grip(vessel, candidate.index);
+  return grip;
+}
+
 std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
                      const ListOrigin& origin) {
   std::string csv(BEST_CSV_START);

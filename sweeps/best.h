@@ -55,6 +55,9 @@ struct BestGrip {
   RobustScore robust{};  // NaN in a scene without [robust]
 };
 
+// A candidate of the vessel at its place; nothing else is known of it.
+BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candidate);
+
 // FIELD_* that a BestGrip is read from.
 std::vector<int> best_fields(const Scene& scene);
 

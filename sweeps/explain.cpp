@@ -20,7 +20,6 @@
 #include "sweeps/robust.h"
 #include "sweeps/variables.h"
 #include "system/clock.h"
-#include "system/output.h"
 #include "system/progress.h"
 #include "system/readable.h"
 
@@ -28,7 +27,6 @@ namespace wholehand {
 namespace {
 
 constexpr std::uint64_t RUNS = 6;         // of each way; the first makes ready
-constexpr double LONG_EXPLAINING = 5;     // s: from here on it is said how long it takes
 constexpr long long SEARCHED_GRIPS = 64;  // for the figures of the search, at most
 
 // A way to evaluate the sample: what it took a grip, and what a grip takes in memory.
@@ -151,10 +149,7 @@ class Explainer {
       progress_->update("explaining", RUNS * (measured_ - 1) + run + 1);
       if (run > 0) runs.push_back(seconds);  // the first compiles
     }
-    if (measured_ == 1) {
-      const double whole = (monotonic_now() - began) * static_cast<double>(progress_->total() / RUNS);
-      if (whole >= LONG_EXPLAINING) say_note("explaining takes about " + readable_duration(whole));
-    }
+    if (measured_ == 1) announce_time("explaining", (monotonic_now() - began) * static_cast<double>(progress_->total() / RUNS));
     std::sort(runs.begin(), runs.end());
     result.seconds = runs[0];
     result.noise = runs[2] - runs[0];

@@ -19,7 +19,7 @@
 
 namespace wholehand {
 
-// Of the plausible grips the one that is nearest to holding: of the least worst effort, then of the least friction that it needs, then the first.
+// The plausible grip that is nearest to holding: the least worst effort, then the least friction needed, then the first grip.
 struct LeastBad {
   static constexpr double ENDLESS = std::numeric_limits<double>::infinity();
 

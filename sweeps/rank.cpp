@@ -493,10 +493,7 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
   }
   std::vector<std::vector<BestGrip>> places(lists);
   for (std::size_t list = 0; list < lists; ++list)
-    for (const Candidate& candidate : best[list].chosen) {
-      places[list].emplace_back().candidate = candidate;
-      places[list].back().grip = plan.grip(list / scales, candidate.index);
-    }
+    for (const Candidate& candidate : best[list].chosen) places[list].push_back(bare_grip(plan, list / scales, candidate));
   if (is_robust) {
     std::vector<std::vector<BestGrip>> held = places;  // those that do not hold stay in the order of their efforts
     for (std::size_t list = 0; list < lists; ++list)

@@ -53,8 +53,8 @@ struct Ranking {
 
 // Goes through the file in blocks, as often as ListChooser needs, so that memory does not depend on the number of grips. Only
 // eligible grips (shaders/status.h) are listed, by what is asked for, then by their number, as a sweep lists them; robust scores are the core's.
-// With the sweep's own weights the scores are the file's, and grips that do not hold have 0 with any. What else is told of them is the
-// file's or, where that lacks some of it, the core's. Throws Error (usage):
+// With the sweep's own weights the scores are the file's, and grips that do not hold have 0 with any. All other numbers are the
+// file's or, where that lacks some of them, the core's. Throws Error (usage):
 // read_weights, Where, or values that the file lacks, with what to keep.
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core);

@@ -38,20 +38,20 @@ std::vector<double> robust_frictions(const Scene& scene);
 // with its other sign. Angles of many turns lose them, since devices take sines of up to 16 rad.
 GripInput deviated(const GripInput& grip, const Deviation& deviation);
 
-// Of n scores in ascending order, from number 0 on, the percentile lies at 0.1 (n - 1), between two of them linearly. `held`: so many of
-// them are of eligible grips (shaders/status.h).
+// The percentile of n ascending scores, counted from 0, lies at 0.1 (n - 1), between two of them linearly. `held` counts the scores of eligible
+// grips (shaders/status.h).
 RobustScore robust_score(std::vector<double> scores, std::size_t held);
 
 // The largest 10th percentile that `count` scores can have, of which these are some; infinite where too few are known.
 double largest_low(std::vector<double> known, std::size_t count);
 
-// So many grips of a list are kept for one of `best` grips: of them robust scores choose. `best` in a scene without [robust].
+// How many grips a list keeps, so that robust scores choose `best` of them. `best` in a scene without [robust].
 std::size_t robust_candidates(const Scene& scene, std::size_t best);
 
 // Opens what evaluates grips of a scene that differs from the sweep's in its friction alone.
 using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
 
-// Ranks each list by their 10th percentile, then by their mean, then as it was, in a scene with [robust]: the first min(best, MOST_ROBUST) places, for each of
+// In a scene with [robust], ranks each list by the 10th percentile of its grips, then by their mean, then as it was: the first min(best, MOST_ROBUST) places, for each of
 // which the first ROBUST_CANDIDATES grips of the list are judged. The grips on these places get their robust scores. What follows keeps its
 // order, and the list ends with `best` grips. A deviation that is not eligible scores 0. A grip whose deviations so far
 // leave it no place is not judged further, which changes no list. The same bits however many grips the backend takes at once. `stop` may

@@ -163,7 +163,7 @@ std::vector<int> Sweep::swept_fields() const {
   const std::vector<int> kept = variable_fields(variables_);
   std::set<int> fields(kept.begin(), kept.end());
   if (ranks_here()) fields.insert({FIELD_SCORE, FIELD_STATUS});
-  // where no grip holds, the one that is nearest to it is told
+  // where no grip holds, the sweep reports the one that is nearest to it
   if (best_wanted_ > 0 && has_effort(scene_)) fields.insert({FIELD_STATUS, FIELD_WORST_EFFORT});
   return {fields.begin(), fields.end()};
 }
@@ -497,10 +497,7 @@ BestLists Sweep::find_best() const {
     const HandLists kept(plan(), candidates(), mark_.vessels[v].best);
     for (std::size_t s = 0; s < plan().hand_scales(); ++s) {
       std::vector<BestGrip>& list = lists.emplace_back();
-      for (const Candidate& candidate : kept.sorted(s)) {
-        list.emplace_back().candidate = candidate;
-        list.back().grip = plan().grip(v, candidate.index);
-      }
+      for (const Candidate& candidate : kept.sorted(s)) list.push_back(bare_grip(plan(), v, candidate));
     }
   }
   return lists;

@@ -178,7 +178,7 @@ def new(
     Parameters
     ----------
     name : str
-        Of the scene and of its vessel.
+        Name of the scene and of its vessel.
     shape : "cylinder", "flask" or "conical"
         With its dimensions as ``diameter_mm``, ``height_mm``, ``neck_mm``, ``upright_mm``, ``shoulder_mm``, and ``wall_mm`` and
         ``density_kg_m3`` of its wall (1.5 mm of glass): the keys of ``[[vessel]]`` in docs/scene.md.

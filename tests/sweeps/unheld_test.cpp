@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A canister that is too heavy: nothing is listed, what is said of it is true, and what is said to hold does.
+// A canister that is too heavy: the list is empty, its line is true, and what the line offers holds.
 // sanitizers: address
 #include "sweeps/unheld.h"
 
