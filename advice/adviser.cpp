@@ -12,6 +12,7 @@
 #include "core/fills.h"
 #include "core/planes.h"
 #include "host/open_backend.h"
+#include "shaders/status.h"
 
 namespace wholehand {
 namespace {
@@ -22,8 +23,6 @@ constexpr double MOVED = 0.1;  // sizes of the reach: a best grip so far from th
 constexpr double POURED_OUT = 1 - LEFT_AS_EMPTY;
 
 double like(double effort) { return effort * (1 + LIKE_SHARE) + LIKE_EFFORT; }
-
-bool is_plausible(std::uint32_t status) { return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE; }
 
 double fill_of(const VesselData& vessel, double volume, double capacity) {
   return vessel.has_cavity() && capacity > 0 ? std::clamp(volume / capacity, 0.0, 1.0) : 0;

@@ -25,8 +25,9 @@ namespace wholehand {
 namespace {
 
 struct RankArguments {
-  std::string result, weights, best, apart, glb, output;
+  std::string result, weights, by, best, apart, glb, output;
   std::vector<std::string> where;
+  bool least_bad = false;
 };
 
 // What can be refused before any work.
@@ -66,17 +67,25 @@ std::string ranking_text(const Scene& scene, const Plan& plan, const RankArgumen
   std::string text;
   for (std::size_t list = 0; list < ranking.lists.size(); ++list) {
     text += fmt::format("{}{}: ", list == 0 ? "" : "\n", list_name(scene, plan, list));
-    text += arguments.where.empty()
-                ? fmt::format("{} feasible and plausible\n", counted(ranking.plausible[list], "grip is", "grips are"))
-                : fmt::format("{} of {} {}\n", readable_number(ranking.matching[list]),
-                              counted(ranking.plausible[list], "feasible, plausible grip", "feasible, plausible grips"),
-                              ranking.plausible[list] == 1 ? "matches" : "match");
+    const std::uint64_t plausible = ranking.plausible[list], not_held = ranking.not_held[list], held = plausible - not_held;
+    const std::string of_these = not_held > 0 ? fmt::format(", {} not held", readable_number(not_held)) : "";
+    if (arguments.where.empty()) {
+      text += fmt::format("{} feasible and plausible{}\n", counted(plausible, "grip is", "grips are"),
+                          of_these.empty() ? "" : "; of these" + of_these.substr(1));
+    } else {
+      text += fmt::format("{} of {}{} {}{}\n", readable_number(ranking.matching[list]),
+                          counted(held, "feasible, plausible grip", "feasible, plausible grips"), not_held > 0 ? " that hold" : "",
+                          held == 1 ? "matches" : "match", of_these);
+    }
+    if (held == 0 && not_held > 0 && !arguments.least_bad)
+      text += "  no grip holds; --least-bad lists those that are nearest to it\n";
     text += list_lines(scene, plan, list / plan.hand_scales(), ranking.lists[list], arguments.output);
   }
   return text;
 }
 
 ExitCode rank(const RankArguments& arguments) {
+  check_rank_by(arguments.by);
   const int glb = arguments.glb.empty() ? 0 : static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (glb > 0 && arguments.output.empty())
     throw usage_error("--glb: the name of the list is missing, which also names the glTF files; give -o LIST.csv");
@@ -87,16 +96,16 @@ ExitCode rank(const RankArguments& arguments) {
   set_heights(result, scene);
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
-  RankRequest request{arguments.weights, arguments.where, 0, 0, 0};
+  RankRequest request{arguments.weights, arguments.where, 0, 0, 0, arguments.least_bad, read_rank_by(arguments.by, scene)};
   request.best = arguments.best.empty() ? usual_length(result, scene, plan)
                                         : static_cast<std::size_t>(parse_integer(arguments.best, "--best", {1, ranges::BEST.high}));
   if (glb > static_cast<int>(request.best))
     throw usage_error(fmt::format("--glb {0}: each list keeps only its best {1} grips; give --best {0} too", glb, request.best));
   request.apart = arguments.apart.empty() ? scene.output.apart : parse_quantity(arguments.apart, "--apart-mm", ranges::APART);
   const auto open_core = [&]() -> std::shared_ptr<const Evaluator> {
-    if (!trouble.empty() && request.apart > 0 && glb == 0)
-      throw usage_error(
-          fmt::format("{}: {}; --apart-mm 0 lists grips without it, however near they are to each other", result.path(), trouble));
+    if (!trouble.empty() && (request.apart > 0 || request.by == RankBy::robust) && glb == 0)
+      throw usage_error(fmt::format("{}: {}; {}--apart-mm 0 lists grips without it, however near they are to each other",
+                                    result.path(), trouble, request.by == RankBy::robust ? "--rank-by score with " : ""));
     if (!trouble.empty()) throw usage_error(result.path() + ": " + trouble);
     return make_core_evaluator(scene);
   };
@@ -132,9 +141,13 @@ void add_rank_command(CLI::App& app, Action& action) {
   add("--where", arguments->where, "CONDITION",
       "List only grips that meet this condition: \"fingers_used >= 4 and palm_depth_mm < 2\"; given again: that one too")
       ->allow_extra_args(false);
+  add("--rank-by", arguments->by, "KEY",
+      "score, robust (10th percentile over the deviations of [robust]; the default where the scene has it), worst_effort or push")
+      ->check(offered("score robust worst_effort push"));
   add("--best", arguments->best, "N", "Number of grips to list for each vessel (default: as many as the sweep listed)");
   add("--apart-mm", arguments->apart, "A",
       "List only grips that have some joint of the hand more than A from every grip before (default: the scene's; 0: any)");
+  command->add_flag("--least-bad", arguments->least_bad, "Where no grip of a list holds, list those of the least worst effort");
   add("--glb", arguments->glb, "N", "Write the best N grips of each vessel as glTF: LIST.<vessel>.<rank>.glb");
   add("-o,--output", arguments->output, "LIST.csv", "Write the list; grip, view and report read it with --list");
   command->callback([arguments, &action] { action = [arguments] { return rank(*arguments); }; });

@@ -82,7 +82,7 @@ void view_result(const std::string& path, const std::string& list_file, int port
     const std::size_t vessel = k / plan.hand_scales(), shown = std::min(lists[k].size(), MOST_SHOWN);
     const auto refined =
         list_file.empty() ? result.refined(vessel, k % plan.hand_scales()) : std::vector<std::optional<RefinedGrip>>{};
-    const auto robust = list_file.empty() ? result.robust(vessel, k % plan.hand_scales()) : std::vector<std::array<double, 2>>{};
+    const auto robust = list_file.empty() ? result.robust(vessel, k % plan.hand_scales()) : std::vector<RobustScore>{};
     if (shown < lists[k].size())
       notes.push_back(
           fmt::format("{}: the first {} of {} are shown", name, readable_number(shown), readable_number(lists[k].size())));
@@ -91,7 +91,7 @@ void view_result(const std::string& path, const std::string& list_file, int port
       ViewedGrip grip{vessel, plan.grip(vessel, ranked.candidate.index), fmt::format("{}, rank {}", name, ranked.rank)};
       if (!list_file.empty()) grip.score = ranked.candidate.score;
       if (i < refined.size() && refined[i]) grip.refined = RefinedView{refined[i]->grip, refined[i]->score};
-      if (i < robust.size() && !std::isnan(robust[i][0])) grip.robust = RobustView{robust[i][0], robust[i][1]};
+      if (i < robust.size() && !std::isnan(robust[i].low)) grip.robust = RobustView{robust[i].mean, robust[i].low};
       grips.push_back(grip);
     }
   }

@@ -23,6 +23,7 @@ void add_sweep_command(CLI::App& app, Action& action);                          
 void add_shared_sweep_command(CLI::App& app, Action& action, const SweepRunner& run);  // by many
 void add_merge_command(CLI::App& app, Action& action);
 void add_rank_command(CLI::App& app, Action& action);
+void add_compare_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_grip_command(CLI::App& app, Action& action);
 void add_trials_command(CLI::App& app, Action& action);
@@ -34,6 +35,7 @@ void add_live_command(CLI::App& app, Action& action);
 void add_session_command(CLI::App& app, Action& action);
 void add_view_command(CLI::App& app, Action& action);
 void add_devices_command(CLI::App& app, Action& action);
+void add_new_command(CLI::App& app, Action& action);
 void add_scenes_command(CLI::App& app, Action& action);
 void add_help_command(CLI::App& app, Action& action);
 void add_completion_command(CLI::App& app, Action& action);

@@ -9,6 +9,7 @@ void add_all(CLI::App& app, wholehand::Action& action) {
   wholehand::add_sweep_command(app, action);
   wholehand::add_merge_command(app, action);
   wholehand::add_rank_command(app, action);
+  wholehand::add_compare_command(app, action);
   wholehand::add_report_command(app, action);
   wholehand::add_grip_command(app, action);
   wholehand::add_trials_command(app, action);
@@ -20,6 +21,7 @@ void add_all(CLI::App& app, wholehand::Action& action) {
   wholehand::add_session_command(app, action);
   wholehand::add_view_command(app, action);
   wholehand::add_devices_command(app, action);
+  wholehand::add_new_command(app, action);
   wholehand::add_scenes_command(app, action);
   wholehand::add_help_command(app, action);
   wholehand::add_completion_command(app, action);

@@ -1125,14 +1125,15 @@ class ClusterSweep final : public Sweep {
   // ---- what is told of the best ----
 
   struct CompletedGrip {
-    std::uint64_t list = 0, place = 0;  // in the list
+    std::uint64_t list = 0;
+    Candidate candidate;
     GripInput refined{};
-    double refined_score = 0, robust_mean = 0, robust_low = 0;
+    double refined_score = 0;
+    RobustScore robust{};
   };
 
-  // Each rank refines some of the grips and finds their robust scores. False: interrupted.
+  // Each rank chooses, refines and scores the grips of some of the lists. False: interrupted.
   bool complete_together(BestLists& best, InterruptGuard& interrupt) {
-    static_assert(MOST_REFINED == MOST_ROBUST);
     PacketWriter packet;
     for (const auto& list : best) {
       std::vector<Candidate> grips;
@@ -1142,40 +1143,32 @@ class ClusterSweep final : public Sweep {
     const std::string bytes = team_.share(packet.bytes());
     PacketReader reader(bytes);
     BestLists own(best.size());
-    std::vector<std::vector<std::size_t>> places(best.size());
-    std::size_t number = 0;
     for (std::size_t list = 0; list < best.size(); ++list) {
       const auto grips = reader.take_all<Candidate>();
-      for (std::size_t place = 0; place < std::min(grips.size(), MOST_REFINED); ++place, ++number) {
-        if (number % static_cast<std::size_t>(team_.size()) != static_cast<std::size_t>(team_.rank())) continue;
-        BestGrip& grip = own[list].emplace_back();
-        grip.candidate = grips[place];
-        grip.grip = plan().grip(list / plan().hand_scales(), grips[place].index);
-        places[list].push_back(place);
-      }
+      if (list % static_cast<std::size_t>(team_.size()) != static_cast<std::size_t>(team_.rank())) continue;
+      for (const Candidate& candidate : grips) own[list].push_back(bare_grip(plan(), list / plan().hand_scales(), candidate));
     }
     bool is_whole = true;
     agree([&] { is_whole = complete(own, interrupt); });
     std::vector<CompletedGrip> completed;
     for (std::size_t list = 0; list < own.size(); ++list)
-      for (std::size_t k = 0; k < own[list].size(); ++k) {
-        const BestGrip& grip = own[list][k];
-        completed.push_back({list, places[list][k], grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
-      }
-    const auto tell_all = [&best](const std::vector<CompletedGrip>& grips) {
+      for (const BestGrip& grip : own[list])
+        completed.push_back({list, grip.candidate, grip.refined, grip.refined_score, grip.robust});
+    if (team_.is_leader())
+      for (auto& list : best) list.clear();
+    const auto add_completed = [&](const std::vector<CompletedGrip>& grips) {
       for (const CompletedGrip& grip : grips) {
-        BestGrip& told = best.at(grip.list).at(grip.place);
-        told.refined = grip.refined;
-        told.refined_score = grip.refined_score;
-        told.robust_mean = grip.robust_mean;
-        told.robust_low = grip.robust_low;
+        BestGrip& added = best.at(grip.list).emplace_back(bare_grip(plan(), grip.list / plan().hand_scales(), grip.candidate));
+        added.refined = grip.refined;
+        added.refined_score = grip.refined_score;
+        added.robust = grip.robust;
       }
     };
-    if (team_.is_leader()) tell_all(completed);
+    if (team_.is_leader()) add_completed(completed);
     PacketWriter found;
     found.put(completed);
     team_.gather(found.bytes(),
-                 [&](int, const std::string& message) { tell_all(PacketReader(message).take_all<CompletedGrip>()); });
+                 [&](int, const std::string& message) { add_completed(PacketReader(message).take_all<CompletedGrip>()); });
     return all_of(is_whole);
   }
 
@@ -1250,7 +1243,7 @@ ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene,
       [&](const FieldSet& fields) { return open_backend(scene, fields, own.on, precise, own.threads); },
       [&] { return make_core_evaluator(scene); },
       [&] { load_meshes(scene, [&] { return largest_buffer(own.on); }); },
-      [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, own.on, precise, own.threads); },
+      [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, "core", Precision::full, own.threads); },
       Team::open_output,
   };
   return run_cluster_sweep(team, scene, own, parts, interrupt);

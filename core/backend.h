@@ -40,7 +40,7 @@ struct RunRequest {
   std::uint64_t first = 0, last = 0;  // grips [first, last)
   GripSource grips;
   ChunkSink sink;        // may be empty when nothing is kept
-  std::size_t best = 0;  // candidates wanted, by score descending, then index ascending; only feasible, plausible ones
+  std::size_t best = 0;  // candidates wanted, by score descending, then index ascending; only eligible ones (shaders/status.h)
   const std::atomic<bool>* stop = nullptr;  // set: finish the chunks under way, deliver them, return
 };
 
@@ -60,10 +60,8 @@ class Backend {
   virtual RunResult run(const RunRequest& request) = 0;
   // Liquid of a vessel over the scene's fills and tilts, fill-major; empty where the scene has none.
   virtual std::vector<LiquidResult> liquid(std::size_t vessel) = 0;
-  // Goes on as if it had been opened with `other`, which differs from its scene in the friction alone: to the same bits, and for
-  // much less than opening a device costs. False: it does not, and nothing has changed.
-  virtual bool use_friction_of(const Scene& /*other*/) { return false; }
-  // The same for the vessels' fills, of which `other` has as many as its scene.
+  // Goes on as if it had been opened with `other`, which differs from its scene in the vessels' fills alone, and has as many of them: to the same
+  // bits, and for much less than opening a device costs. False: it does not, and nothing has changed.
   virtual bool use_fills_of(const Scene& /*other*/) { return false; }
 };
 

@@ -13,6 +13,7 @@
 #include "core/candidates.h"
 #include "core/fills.h"
 #include "core/parallel.h"
+#include "shaders/status.h"
 
 namespace wholehand {
 namespace {
@@ -126,8 +127,7 @@ class CoreRun {
     const double* score = slot.reals.data() + fields_.plane[FIELD_SCORE] * chunk_;
     const std::uint32_t* status = slot.uints.data() + fields_.plane[FIELD_STATUS] * chunk_;
     for (std::size_t i = 0; i < count_of(chunk); ++i) {
-      const bool eligible = (status[i] & STATUS_REASON_MASK) == REASON_NONE && (status[i] & STATUS_PLAUSIBLE) != 0;
-      if (eligible) best.offer({score[i], first_of(chunk) + i});
+      if (is_eligible(status[i])) best.offer({score[i], first_of(chunk) + i});
     }
   }
 

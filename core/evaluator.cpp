@@ -17,9 +17,11 @@
 #include "core/prepare.h"
 #include "core/remaining.h"
 #include "core/scene_states.h"
+#include "core/score.h"
 #include "core/touch.h"
 #include "core/trig.h"
 #include "core/vectors.h"
+#include "shaders/status.h"
 
 namespace CORE_NS {
 
@@ -190,7 +192,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     LargestForces largest;
     std::vector<FillEffort> fill_efforts(states_.fills());
     if (has_effort_ && result.plausible) {
-      const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask);
+      const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask, Real(result.gap));
       largest.effort = effort_over_states(hand, true, states_.loads(entry, pinch), fill_efforts).worst;
     }
     for (std::size_t fill = 0; fill < states_.fills(); ++fill) {
@@ -203,7 +205,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
                           Real(result.closure)};
     const auto terms = states_.score_terms(hand, largest, entry.force.max);
     score.terms = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5]};
-    score.score = result.plausible ? states_.weighted(terms) : 0;
+    score.not_held = is_not_held(result.plausible, largest);
+    score.score = result.plausible && !score.not_held ? states_.weighted(terms) : 0;
     return score;
   }
 
@@ -368,16 +371,16 @@ class CoreEvaluator final : public wholehand::Evaluator {
     return posed;
   }
 
-  HeldHand held_hand(const VesselEntry& entry, const std::array<Vec3, JOINTS>& posed, std::uint32_t touch_mask) const {
+  HeldHand held_hand(const VesselEntry& entry, const std::array<Vec3, JOINTS>& posed, std::uint32_t touch_mask, Real gap) const {
     HeldHand hand;
+    const Real scale = placed_scale(hand_, posed);
     std::array<PressingJoint, JOINTS> pressing;
-    hand.count =
-        static_cast<std::size_t>(find_contacts(hand_, entry.vessel, posed, placed_scale(hand_, posed), touch_mask, pressing));
+    hand.count = static_cast<std::size_t>(find_contacts(hand_, entry.vessel, posed, scale, touch_mask, pressing));
     for (std::size_t i = 0; i < hand.count; ++i) {
       hand.contacts[i] = pressing[i].contact;
       if (pressing[i].contact.is_tip) hand.tips[hand.tip_count++] = pressing[i].contact;
     }
-    hand.strength = load_strength(scene_, hand.pinch());
+    hand.strength = load_strength(scene_, gap, scale);
     return hand;
   }
 
@@ -390,7 +393,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   std::optional<Real> put_efforts(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
                                   std::span<FillEffort> fills) const {
     if (!has_effort_ || !is_plausible(answer)) return std::nullopt;
-    const HeldHand hand = held_hand(entry, answer.posed, answer.touch_mask);
+    const HeldHand hand = held_hand(entry, answer.posed, answer.touch_mask, answer.closing.gap);
     const bool of_tips = row.fields.has(FIELD_TIPS_WORST_EFFORT) || row.fields.has(FIELD_LARGEST_HOLD);
     const GripLoads loads = states_.loads(entry, {answer.closing.direction, answer.closing.midpoint, is_antipodal(answer)});
     const GripEffort found = effort_over_states(hand, of_tips, loads, fills);
@@ -437,7 +440,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   // What each tip must press in a state of a feasible grip.
   Real tips_hold(const VesselEntry& entry, const GripInput& input, const GripResult& result, const Load& load,
                  TiltAngle tilt) const {
-    const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask);
+    const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask, Real(result.gap));
     const GripLoads loads = states_.loads(entry, pinch_of(input, result));
     EffortSolver tips(hand.pinch(), hand.strength, contacts_center(hand.pinch()));
     return tips.solve(loads.weight(load, tilt), effort_tolerance_).effort * hand.strength.weaker_tip();
@@ -472,7 +475,14 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const ScoredHand hand{answer.used_mask, answer.touch_mask, answer.phalanx_depth, answer.palm_depth, answer.closing.closure};
     const auto terms = states_.score_terms(hand, largest, entry.force.max);
     for (int k = 0; k < 6; ++k) row.put(FIELD_TERMS, k, terms[k]);
-    row.put(FIELD_SCORE, 0, is_plausible(answer) ? states_.weighted(terms) : Real(0));
+    const std::uint32_t status = answer.status | (is_not_held(is_plausible(answer), largest) ? STATUS_NOT_HELD : 0u);
+    row.put_mask(FIELD_STATUS, status);
+    row.put(FIELD_SCORE, 0, wholehand::is_eligible(status) ? states_.weighted(terms) : Real(0));
+  }
+
+  // False in a scene without efforts and for an implausible grip: nobody knows there.
+  static bool is_not_held(bool is_plausible, const LargestForces& largest) {
+    return is_plausible && largest.effort && !effort_holds(*largest.effort);
   }
 
   // How a grip of this result holds its vessel, in the world of the right hand.

@@ -103,8 +103,8 @@ constexpr Field ROWS[] = {
     {FIELD_TERMS, S::terms, nullptr, "1", "score terms: fingers, contacts, depth, posture, force, hold", NONE, DEFAULT, "score",
      "terms", 0, A::never},
     {FIELD_SCORE, S::one, "score", "1", "score of the grip, larger is better",
-     "sum of weight x term over the score terms (attribute score_weights); 0 where the grip is infeasible (and so are its terms) "
-     "or implausible",
+     "sum of weight x term over the score terms (attribute score_weights); 0 where the grip is infeasible (and so are its terms), "
+     "implausible or not held",
      DEFAULT, "score", "score", 0, A::never},
 };
 static_assert(std::size(ROWS) == REAL_FIELDS, "a row for each field of reals in shaders/layout.h");

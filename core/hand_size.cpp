@@ -38,6 +38,8 @@ HandData paper_hand() {
   return hand;
 }
 
+double tip_radii(const HandData& hand) { return hand.fingers[0].radii[3] + hand.fingers[1].radii[4]; }
+
 HandSize size_of(const HandData& hand) {
   const FingerData& middle = hand.fingers[MIDDLE];
   double finger = 0;

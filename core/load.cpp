@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/hand_size.h"
 #include "core/mesh_body.h"
 #include "core/mirror.h"
 #include "core/touch.h"
@@ -154,17 +155,17 @@ ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData
   return scale;
 }
 
-HandStrength load_strength(const wholehand::Scene& scene, std::span<const ContactPoint> contacts) {
+HandStrength load_strength(const wholehand::Scene& scene, Real gap, Real scale) {
   HandStrength hand{Real(scene.force.friction), Real(scene.force.torsion), {}};
   if (!scene.strength) return hand;
-  const auto tip_of = [&](int digit) {
-    return std::find_if(contacts.begin(), contacts.end(), [&](const ContactPoint& c) { return c.is_tip && c.digit == digit; });
-  };
-  const auto thumb = tip_of(0), index = tip_of(1);
-  const bool has_opening = scene.strength->by_opening && thumb != contacts.end() && index != contacts.end();
-  const Real share = has_opening ? strength_at(glm::length(index->place - thumb->place)) : Real(1);
+  const Real share = scene.strength->by_opening ? strength_at(gap - scale * Real(wholehand::tip_radii(scene.hand))) : Real(1);
   for (std::size_t digit = 0; digit < DIGITS; ++digit) hand.digits[digit] = share * Real(scene.strength->digits[digit]);
   return hand;
+}
+
+HandStrength load_strength(const wholehand::Scene& scene, const wholehand::GripResult& held) {
+  const Real bone = glm::length(to_vec3<Real>(held.posed[1]) - to_vec3<Real>(held.posed[0]));  // no pose moves it
+  return load_strength(scene, Real(held.gap), bone / Real(scene.hand.fingers[0].segments[0]));
 }
 
 }  // namespace CORE_NS

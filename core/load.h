@@ -2,7 +2,6 @@
 // Prepared scenes in the kernels' own precision.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "core/effort.h"
@@ -10,6 +9,7 @@
 #include "core/hand.h"
 #include "core/liquid.h"
 #include "core/prepared.h"
+#include "core/result.h"
 #include "core/sdf.h"
 
 namespace CORE_NS {
@@ -32,8 +32,10 @@ void use_lattice(Vessel& vessel, Lattice lattice);
 // The scene's force constants for a vessel; `reference` is filled by the caller.
 ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data);
 
-// What a hand can do that holds with these contacts, at the opening between the tips of thumb and index finger; as at the best opening
-// where one of them does not press. No strength where the scene has none.
-HandStrength load_strength(const wholehand::Scene& scene, std::span<const ContactPoint> contacts);
+// What a hand of a scale (the scene's own included) can do whose tips of thumb and index finger are `gap` apart, m, from middle to
+// middle. No strength where the scene has none.
+HandStrength load_strength(const wholehand::Scene& scene, Real gap, Real scale);
+// The same of a hand that holds.
+HandStrength load_strength(const wholehand::Scene& scene, const wholehand::GripResult& held);
 
 }  // namespace CORE_NS

@@ -41,8 +41,9 @@ int field_planes(int field, const Scene& scene) {
 namespace {
 
 // What must be computed for a score, and for any force.
-const std::vector<int> SCORE_NEEDS{FIELD_STATUS,     FIELD_TOUCH_MASK, FIELD_USED_MASK,    FIELD_CLOSURE,  FIELD_PHALANX_DEPTH,
-                                   FIELD_PALM_DEPTH, FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD, FIELD_MIDPOINT, FIELD_WORST_EFFORT};
+const std::vector<int> SCORE_NEEDS{FIELD_STATUS,        FIELD_TOUCH_MASK,   FIELD_USED_MASK,  FIELD_CLOSURE,
+                                   FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH,   FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD,
+                                   FIELD_MIDPOINT,      FIELD_WORST_EFFORT, FIELD_GAP};
 
 }  // namespace
 
@@ -64,6 +65,8 @@ FieldSet make_field_set(const std::vector<int>& kept, const Scene& scene) {
     if (field == FIELD_MIDPOINT && scene.tilts.empty()) continue;
     // with efforts the hold term is the whole hand's
     if (field == FIELD_LARGEST_HOLD && has_effort(scene)) continue;
+    // the gap serves strengths that shrink as the hand opens
+    if (field == FIELD_GAP && !(has_effort(scene) && scene.strength->by_opening)) continue;
     place(field, false);
   }
   return set;

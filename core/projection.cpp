@@ -61,8 +61,10 @@ Real place_step(Support support, Real separation, const Place& place, FingerFram
 
 // The wall leaves a place no faster than that beside an edge, which curves by the ball's radius: what meets the wall faster than that lets
 // it leave within the margin does not depend on rounding.
-bool passes_close(const Support& support, Real separation, const Place& place, const FingerFrame& frame) {
-  const Vec2 normal(glm::dot(support.normal, frame.forward), glm::dot(support.normal, frame.palmward));
+bool passes_close(const Vessel& vessel, const Support& support, Real separation, const Place& place, const FingerFrame& frame) {
+  Vec3 wall = support.normal;  // steps on a lattice need none, and it has none
+  if (vessel.is_lattice && std::abs(separation) <= Real(CONTACT_MARGIN)) wall = lattice_gradient(vessel, place.ball.place);
+  const Vec2 normal(glm::dot(wall, frame.forward), glm::dot(wall, frame.palmward));
   const Real closing = glm::dot(normal, place.velocity), leaving = glm::dot(normal, place.acceleration);
   const Real across = glm::dot(place.velocity, place.velocity) - closing * closing;
   const Real most = std::max(Real(0), leaving) + across / std::max(place.ball.radius, Real(1e-3));
@@ -155,7 +157,7 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     const Support support = support_at(vessel, place.ball.place);
     const Real separation = support.distance - place.ball.radius;
     see_place(hand, separation, place_step(support, separation, place, finger.frame), motion, watch);
-    resting.undecided = resting.undecided || passes_close(support, separation, place, finger.frame);
+    resting.undecided = resting.undecided || passes_close(vessel, support, separation, place, finger.frame);
 
     // which joint turns next: after a look around at all places, or where one that was due touches
     const int moving = std::max(motion.joint, 0);  // first bone that moves

@@ -84,7 +84,7 @@ Place watched_place(const Hand& hand, const Finger& finger, const Bend& bend, Ve
 // The largest step of the motion along which the place is sure not to pass a surface.
 Real place_step(Support support, Real separation, const Place& place, FingerFrame frame);
 // Whether a place that is within CONTACT_MARGIN of the wall moves along it so that rounding may decide if it touches or passes.
-bool passes_close(const Support& support, Real separation, const Place& place, const FingerFrame& frame);
+bool passes_close(const Vessel& vessel, const Support& support, Real separation, const Place& place, const FingerFrame& frame);
 // Number (0..2) of the smallest separation among those from `first` on; of equal ones the innermost.
 int nearest_point(Vec3 separations, int first);
 // A finger at closure 0 that may go up to `limit`.

@@ -48,7 +48,7 @@ struct GripResult {
   std::uint32_t finger_mask = 0;
   std::uint32_t inner_mask = 0;
   std::uint32_t used_mask = 0;               // bit f: finger f has a touching point
-  std::uint32_t status = 0;                  // STATUS_* bits of shaders/layout.h
+  std::uint32_t status = 0;                  // STATUS_* bits of shaders/layout.h; STATUS_NOT_HELD is found with the score
   double phalanx_depth = 0, palm_depth = 0;  // m, >= 0
   double bone_stretch = 0;                   // m
   double self_depth =
@@ -94,8 +94,14 @@ struct ScoreTerms {
   double fingers = 0, contacts = 0, depth = 0, posture = 0, force = 0, hold = 0;
 };
 
+// How many times over the strength of the hand holds: 1 / worst effort; infinite where nothing has to be held.
+inline double held_margin(double worst_effort) {
+  return worst_effort == 0 ? std::numeric_limits<double>::infinity() : 1 / worst_effort;
+}
+
 struct GripScore {
   double score = 0;
+  bool not_held = false;  // plausible, and the worst effort is above 1
   ScoreTerms terms;
   std::vector<FillTerms> fills;  // one per fill (one, empty glass, without liquid); empty without tilts
 };

@@ -41,12 +41,16 @@ struct FingerData {
   double arch = 0;                   // rad, about +x, fingers only
   std::array<double, 4> segments{};  // L0..L3, m (thumb: L0..L2)
   std::array<double, 5> radii{};     // metacarpal base .. tip, m (thumb: four)
+
+  bool operator==(const FingerData&) const = default;
 };
 
 // An angle's value at closure 0 and 1, rad.
 struct AngleRange {
   double open = 0;
   double closed = 0;
+
+  bool operator==(const AngleRange&) const = default;
 };
 
 // The default hand is that of the mean adult, as many women as men: length and breadth of ANSUR II, segment means of Buryanov & Kotiuk
@@ -94,6 +98,8 @@ struct HandData {
   AngleRange mcp{radians(4), radians(66)};
   AngleRange pip{radians(12), radians(40)};
   double dip_per_pip = 0.6;
+
+  bool operator==(const HandData&) const = default;
 };
 
 // One element of a half outline in (r, y), m: from the previous element's end (the first from (0, 0)) to `end`. An arc is the
@@ -180,6 +186,8 @@ struct StrengthData {
   std::array<double, FINGER_COUNT + 1> digits{40, 25, 35, 25, 14, 80};
   bool by_opening = true;  // they shrink as the hand opens; false: the same at every opening
   std::string place;       // of [strength], as above; empty: by default
+
+  bool operator==(const StrengthData& other) const { return digits == other.digits && by_opening == other.by_opening; }
 };
 
 // Values of one axis of the grips, as the scene asks for them.
@@ -227,6 +235,8 @@ struct RobustData {
   double hand_scale = 0;  // of the grip's
   int count = 64;
   std::uint64_t seed = 1;
+
+  bool operator==(const RobustData&) const = default;
 };
 
 struct LiveData {

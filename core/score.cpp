@@ -10,7 +10,7 @@ namespace CORE_NS {
 //   fingers   fingers used / 5                    contacts   points touching / 24
 //   depth     1 - min(1, deepest / 10 mm)         posture    1 - |2 c - 1|
 //   force     1 - largest feedback / F_max        hold       min(1, grip strength / largest hold force)
-// In a scene with efforts the hold term is 1 / (1 + worst effort).
+// In a scene with efforts the hold term is 1 / (1 + worst effort), and the score of a grip that does not hold is 0.
 // Degenerate: an F_max of 0 gives the force term 0; an infinite hold force gives the hold term 0.
 Real fingers_term(int fingers_used) { return Real(fingers_used) / Real(FINGERS); }
 
@@ -29,5 +29,8 @@ Real hold_term(Real largest_hold, Real grip_strength) {
 }
 
 Real effort_term(Real worst_effort) { return Real(1) / (Real(1) + worst_effort); }
+
+// All of the strength is enough. A worst effort is that of forces that were found, and up to 1e-3 more than the least: what counts as held is held.
+bool effort_holds(Real worst_effort) { return worst_effort <= Real(1); }
 
 }  // namespace CORE_NS

@@ -20,5 +20,7 @@ Real hold_term(Real largest_hold, Real grip_strength);
 
 // The same in a scene with efforts: 1 / (1 + worst effort); 0 where it is infinite.
 Real effort_term(Real worst_effort);
+// Whether a grip of that worst effort holds: up to 1.
+bool effort_holds(Real worst_effort);
 
 }  // namespace CORE_NS

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "evidence/check.h"
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "core/domain.h"
 #include "evidence/check_sample.h"
 #include "host/grip_backend.h"
+#include "system/clock.h"
 #include "system/progress.h"
 
 namespace wholehand {
@@ -68,6 +70,16 @@ class Checking {
   // The evaluations of the core that add makes of so many grips of the vessel.
   std::uint64_t evaluations(std::size_t v, std::size_t grips) const {
     return translation_.evaluations(v, grips) + cost_.evaluations(v, grips) + (on_double_ ? exact_.evaluations(v, grips) : 0);
+  }
+
+  // One evaluation of the core, s, from a few grips of the vessel.
+  double seconds_each(std::size_t v, const std::vector<GripInput>& grips) const {
+    const std::vector<GripInput> few(grips.begin(),
+                                     grips.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(16, grips.size())));
+    if (few.empty()) return 0;
+    const double start = monotonic_now();
+    gather(*core_, fields_, v, few);
+    return (monotonic_now() - start) / static_cast<double>(few.size());
   }
 
   void on_evaluated(const std::function<void(std::uint64_t)>& done) {
@@ -141,10 +153,14 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
   try {
     Checking checking(scene, options);
     std::uint64_t total = 0, done = 0;
+    double seconds = 0;
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       samples.push_back(check_sample(scene, plan, v));
-      total += checking.evaluations(v, samples[v].grips.size());
+      const std::uint64_t evaluations = checking.evaluations(v, samples[v].grips.size());
+      total += evaluations;
+      seconds += static_cast<double>(evaluations) * checking.seconds_each(v, samples[v].grips);
     }
+    if (!options.is_quiet) announce_time("comparing", seconds);
     std::optional<Progress> progress;  // from the first evaluation on: the device makes its kernels ready before
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       const CheckSample& sample = samples[v];

@@ -27,18 +27,19 @@ constexpr double ROUNDINGS = 64;
 // Whether an iteration of the grip took all its steps.
 constexpr std::uint32_t ALL_STEPS = STATUS_PROXY_UNSETTLED | 0x1Fu << STATUS_UNSETTLED_SHIFT;
 
-// Whether grip `i` of `a` has another outcome than grip `k` of `b`.
-bool differs(const GatheredPlanes& a, std::size_t i, const GatheredPlanes& b, std::size_t k, bool same_stop) {
+// Whether grip `i` of `a` has another outcome than grip `k` of `b`, whatever the bits `besides` of the status.
+bool differs(const GatheredPlanes& a, std::size_t i, const GatheredPlanes& b, std::size_t k, bool same_stop,
+             std::uint32_t besides = 0) {
   return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) {
     const std::uint32_t left_out = field != FIELD_STATUS ? 0
-                                   : same_stop           ? STATUS_CONTACT_UNDECIDED
-                                                         : ALL_STEPS | STATUS_CONTACT_UNDECIDED;
+                                   : same_stop           ? STATUS_CONTACT_UNDECIDED | besides
+                                                         : ALL_STEPS | STATUS_CONTACT_UNDECIDED | besides;
     return ((a.uint(field, i) ^ b.uint(field, k)) & ~left_out) != 0;
   });
 }
 
-bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i, bool same_stop) {
-  return differs(a, i, b, i, same_stop);
+bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i, bool same_stop, std::uint32_t besides = 0) {
+  return differs(a, i, b, i, same_stop, besides);
 }
 
 bool grazes(const GatheredPlanes& planes, std::size_t i) { return (planes.uint(FIELD_STATUS, i) & STATUS_GRAZING) != 0; }
@@ -270,10 +271,10 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   for (std::size_t i = 0; i < n; ++i)
     if (spreads_ == Spreads::of_all || needs_spread(vessel, a, b, truth, floor, i)) chosen.push_back(i);
   const Spread spread = spread_of(vessel, grips, truth, chosen);
-  const std::vector<char> left_out = add_outcomes(vessel, a, b, truth, spread);
   const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
     return floor(field, k, i) + 2 * spread.reals[(fields.plane[field] + k) * n + i];
   };
+  const std::vector<char> left_out = add_outcomes(vessel, a, b, truth, spread, tolerance);
   add_numbers(vessel, a, b, left_out, tolerance);
   if (has_tilts(scene_, fields)) add_tilts(vessel, grips, a, b, left_out, tolerance);
   if (has_worst_state(fields)) add_worst_states(vessel, grips, a, b, truth, left_out, tolerance);
@@ -356,14 +357,16 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
   const auto spread_to = [&](GatheredPlanes other, int first, int first_of_other, int planes) {
     on_evaluated_(m);
     to_compared_form(other);
-    std::vector<char> differing(m, 0);
+    std::vector<char> differing(m, 0), by_gate(m, 0);
     for (std::size_t k = 0; k < m; ++k) {
       differing[k] = differs(other, k, truth, chosen[k], allowed_.same_stop) ? 1 : 0;
+      by_gate[k] = differing[k] != 0 && !differs(other, k, truth, chosen[k], allowed_.same_stop, STATUS_NOT_HELD) ? 1 : 0;
       spread.undecided[chosen[k]] |= differing[k];
       spread.may_graze[chosen[k]] |= grazes(other, k) ? 1 : 0;
     }
     for (int plane = 0; plane < planes; ++plane)
       for (std::size_t k = 0; k < m; ++k) {
+        if (by_gate[k] != 0 && first + plane == fields.plane[FIELD_SCORE]) continue;  // 0 on the other side of the gate
         double& most = spread.reals[(first + plane) * n + chosen[k]];
         const double difference = figure_difference(other.real(first_of_other + plane, k), truth.real(first + plane, chosen[k]));
         // with another outcome a number may be absent or infinite; with the same one it is where a lever just counts, or just does not
@@ -385,9 +388,18 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
   return spread;
 }
 
+// Whether nothing differs but which side calls the grip held: two efforts that agree to their tolerance may lie on both sides of 1.
+bool Comparer::differs_by_gate(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i, const Tolerance& tolerance) const {
+  if (!is_held(a, FIELD_WORST_EFFORT) || !is_held(b, FIELD_WORST_EFFORT)) return false;
+  const int plane = a.fields.plane[FIELD_WORST_EFFORT];
+  const double of_a = a.real(plane, i), of_b = b.real(plane, i), gate = compared_form(FIELD_WORST_EFFORT, 1);
+  return !differs(a, b, i, allowed_.same_stop, STATUS_NOT_HELD) && (of_a < gate) != (of_b < gate) &&
+         figure_difference(of_a, of_b) <= tolerance(FIELD_WORST_EFFORT, 0, i);
+}
+
 // Answers by grip: whether its numbers are left out.
 std::vector<char> Comparer::add_outcomes(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b,
-                                         const GatheredPlanes& truth, const Spread& spread) {
+                                         const GatheredPlanes& truth, const Spread& spread, const Tolerance& tolerance) {
   std::vector<char> left_out(truth.count, 0);
   Comparison& outcomes = row("whole", "discrete outcomes", "grips");
   for (std::size_t i = 0; i < left_out.size(); ++i) {
@@ -402,8 +414,9 @@ std::vector<char> Comparer::add_outcomes(std::size_t vessel, const GatheredPlane
     ++outcomes.compared;
     if (!differs(a, b, i, allowed_.same_stop)) continue;
     left_out[i] = 1;
-    flips_.push_back({vessel, i, spread.undecided[i] != 0});
-    if (spread.undecided[i] != 0) {
+    const bool is_inside = spread.undecided[i] != 0 || differs_by_gate(a, b, i, tolerance);
+    flips_.push_back({vessel, i, is_inside});
+    if (is_inside) {
       ++excluded_;
     } else {
       count_outside(outcomes, vessel, i, 1);

@@ -105,7 +105,8 @@ class Comparer {
   Spread spread_of(std::size_t vessel, const std::vector<GripInput>& all, const GatheredPlanes& truth,
                    const std::vector<std::size_t>& chosen) const;
   std::vector<char> add_outcomes(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
-                                 const Spread& spread);
+                                 const Spread& spread, const Tolerance& tolerance);
+  bool differs_by_gate(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t grip, const Tolerance& tolerance) const;
   double largest_of(const GatheredPlanes& truth, int field) const;
   void add_numbers(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
                    const Tolerance& tolerance);

@@ -33,7 +33,7 @@ Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t ves
     if (found.is_tip) tips_.push_back(contacts_.back());
   }
   center_ = core_f64::contacts_center(contacts_);
-  hand_ = core_f64::load_strength(scene, tips_);
+  hand_ = core_f64::load_strength(scene, result);
 }
 
 // The weight at the centre of mass. Up in the vessel frame at a tilt t: cos t y - sin t n.

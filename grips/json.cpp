@@ -96,6 +96,7 @@ void add_grip_hold(Json& json, const GripHold& hold) {
   json["tips_worst_effort"] = finite_or_null(hold.tips_worst);
   json["push_N"] = hold.push;
   json["friction_needed"] = finite_or_null(hold.friction_needed);
+  json["held_margin"] = finite_or_null(held_margin(hold.worst));
 }
 
 void add_grip_quality(Json& json, const GripQuality& quality) {
@@ -158,6 +159,7 @@ std::string grip_json(const GripReport& report) {
     }
     if (report.hold) add_grip_hold(json, *report.hold);
     if (report.quality) add_grip_quality(json, *report.quality);
+    if (report.hold) json["not_held"] = report.answer.score.not_held;
     json["score"] = report.answer.score.score;
     json["score_terms"] = score_terms(report);
   }

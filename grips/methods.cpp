@@ -110,6 +110,7 @@ GripPlanes run_one(Backend& backend, std::size_t vessel, const GripInput& grip) 
 GripScore score_of(const GripPlanes& planes, const Scene& scene) {
   GripScore score;
   score.score = planes.real(FIELD_SCORE);
+  score.not_held = (planes.uints[static_cast<std::size_t>(planes.fields.plane[FIELD_STATUS])] & STATUS_NOT_HELD) != 0;
   const auto term = [&](std::size_t k) { return planes.real(FIELD_TERMS, k); };
   score.terms = {term(0), term(1), term(2), term(3), term(4), term(5)};
   if (!planes.has(FIELD_PEAK_FORCE)) return score;

@@ -220,7 +220,10 @@ std::vector<std::string> caption_lines(const GripReport& report) {
       fmt::format("gap {:.1f} mm, closure {:.2f}", r.gap * 1e3, r.closure),
       fmt::format("{}, {}", counted(static_cast<std::uint64_t>(std::popcount(r.used_mask)), "finger"),
                   counted(static_cast<std::uint64_t>(std::popcount(r.touch_mask)), "point touches", "points touch")),
-      fmt::format("score {:.3f}{}", report.answer.score.score, r.plausible ? "" : " (implausible)"),
+      fmt::format("score {:.3f}{}", report.answer.score.score,
+                  !r.plausible                   ? " (implausible)"
+                  : report.answer.score.not_held ? " (not held)"
+                                                 : ""),
   };
   if (g.offset != 0) lines[2] += fmt::format(", offset {:.1f} mm", g.offset * 1e3);
   return lines;

@@ -186,6 +186,8 @@ void write_hold(std::string& out, const GripReport& report) {
   append_formatted(out, "\n  worst effort   {}, in the hardest of the scene's own states: {}, {} deg\n", percent(hold.worst),
                    fill_words(report, hold.worst_fill), plain_text(degrees(hold.worst_tilt)));
   append_formatted(out, "                 two tips alone over the scene's states: {}\n", percent(hold.tips_worst));
+  append_formatted(out, "  held margin    {} times the strength that holding takes: the grip {}\n",
+                   fixed_text(held_margin(hold.worst), 2), hold.worst <= 1 ? "holds" : "does not hold");
   append_formatted(out, "  friction       {}\n",
                    std::isfinite(hold.friction_needed)
                        ? fmt::format("{:.3f} is the least that holds all states", hold.friction_needed)

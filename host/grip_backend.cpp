@@ -13,6 +13,7 @@
 #include "core/prepare.h"
 #include "host/grip_program.h"
 #include "host/stream.h"
+#include "shaders/status.h"
 #include "system/clock.h"
 
 namespace wholehand::host {
@@ -131,7 +132,7 @@ struct GripBackend::Impl {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < planes.count; ++i) {
       const std::uint32_t status = planes.uint(fields.plane[FIELD_STATUS], i);
-      if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) != STATUS_PLAUSIBLE) continue;
+      if (!is_eligible(status)) continue;
       candidates.push_back({planes.real(fields.plane[FIELD_SCORE], i), planes.first + i});
     }
     keep_best(candidates, best);
@@ -370,15 +371,6 @@ RunResult GripBackend::run(const RunRequest& request) {
 }
 
 std::vector<LiquidResult> GripBackend::liquid(std::size_t vessel) { return impl_->program().vessels[vessel].liquid; }
-
-bool GripBackend::use_friction_of(const Scene& other) {
-  // what a fresh device would be made from after a fault, and the core for what no device computes, are of the new friction, too
-  impl_->scene.force.friction = other.force.friction;
-  impl_->core = make_core_evaluator(impl_->scene, impl_->options.evaluator);
-  impl_->arrays = make_scene_arrays(impl_->scene, *impl_->core, impl_->options.evaluator);
-  impl_->program().write_parameters(impl_->arrays);
-  return true;
-}
 
 bool GripBackend::use_fills_of(const Scene& other) {
   if (!have_like_fills(impl_->scene, other)) return false;

@@ -32,8 +32,6 @@ class GripBackend final : public Backend {
   const FieldSet& fields() const override;
   RunResult run(const RunRequest& request) override;
   std::vector<LiquidResult> liquid(std::size_t vessel) override;
-  // Writes the vessels' parameters anew; the device, its pipelines and all other tables stay. Not during a run.
-  bool use_friction_of(const Scene& other) override;
   // Computes the vessels' liquid anew; the device and its pipelines stay. Not during a run.
   bool use_fills_of(const Scene& other) override;
 

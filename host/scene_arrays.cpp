@@ -11,6 +11,7 @@
 
 #include "core/counted_tilts.h"
 #include "core/extreme_points.h"
+#include "core/hand_size.h"
 #include "core/mirror.h"
 #include "core/planes.h"
 #include "core/prepare.h"
@@ -84,7 +85,7 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
     p.ring_strength = digits[3];
     p.little_strength = digits[4];
     p.palm_strength = digits[5];
-    p.by_opening = scene.strength->by_opening ? 1 : 0;
+    p.tip_radii = scene.strength->by_opening ? scene.hand.scale * tip_radii(scene.hand) : 0;
   }
   p.table_top = scene.table ? table_top(scene, vessel) : 0;
   p.pour_sense = scene.liquid && scene.liquid->pour == Pour::towards ? -1 : 1;

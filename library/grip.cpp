@@ -39,6 +39,7 @@ wh_grip_result result_of(const GripResult& grip, const GripScore& score) noexcep
   out.tip_mask = grip.tip_mask;
   out.finger_mask = grip.finger_mask;
   out.inner_mask = grip.inner_mask;
+  out.is_not_held = score.not_held;
   const double none = std::nan("");
   out.closure = is_feasible ? grip.closure : none;
   // these two exist from too_wide on

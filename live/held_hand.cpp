@@ -24,10 +24,11 @@ HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& 
   std::array<Vec3, JOINT_COUNT> joints;
   for (std::size_t j = 0; j < JOINT_COUNT; ++j) joints[j] = back * (to_vec3(mirrored(posed[j], handedness)) - place_);
   const Vec3 apart = joints[INDEX_TIP] - joints[THUMB_TIP];
-  if (glm::length(apart) > 0) pinch_ = apart / glm::length(apart);
+  gap_ = glm::length(apart);
+  if (gap_ > 0) pinch_ = apart / gap_;
+  scale_ = core_f64::placed_scale(live.hand, joints);
   std::array<core_f64::PressingJoint, JOINT_COUNT> pressing;
-  const int count = core_f64::find_contacts(live.hand, live.vessels[vessel].vessel, joints,
-                                            core_f64::placed_scale(live.hand, joints), touch_mask, pressing);
+  const int count = core_f64::find_contacts(live.hand, live.vessels[vessel].vessel, joints, scale_, touch_mask, pressing);
   for (int i = 0; i < count; ++i) {
     const core_f64::ContactPoint& contact = pressing[static_cast<std::size_t>(i)].contact;
     contacts_.push_back(contact);
@@ -36,7 +37,7 @@ HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& 
   center_ = core_f64::contacts_center(contacts_);
 }
 
-core_f64::HandStrength HeldHand::strength() const { return core_f64::load_strength(live_.scene, tips_); }
+core_f64::HandStrength HeldHand::strength() const { return core_f64::load_strength(live_.scene, gap_, scale_); }
 
 Triple HeldHand::place_out(Vec3 place) const { return mirrored(to_triple(place_ + turn_ * place), live_.scene.hand.handedness); }
 

@@ -39,6 +39,7 @@ class HeldHand {
   core_f64::Vec3 place_{};
   core_f64::Mat3 turn_{1};
   core_f64::Vec3 pinch_{1, 0, 0};
+  double gap_ = 0, scale_ = 1;
   std::vector<core_f64::ContactPoint> contacts_, tips_;
   core_f64::Vec3 center_{};
 };

@@ -109,7 +109,7 @@ double largest_extent(const MeshFacts& facts) {
 
 const char* was(std::size_t count) { return count == 1 ? "was" : "were"; }
 
-// Of a length in m.
+// Takes m.
 std::string millimetres(double length) { return plain_text(1e3 * length, 4); }
 
 // The mesh's extent along an axis, mm.
@@ -236,7 +236,7 @@ std::string mesh_check_text(const MeshFacts& facts) {
   if (facts.holes > 0 || (facts.open_edges > 0 && facts.odd_edges == 0 && facts.oriented))
     text += " What lies inside is judged by the winding number, which guesses across the holes" + holes_text(facts);
   if (facts.odd_edges > 0)
-    text += fmt::format(" At {} a wall ends within the body, and the winding number guesses what lies beside it: remove that wall.",
+    text += fmt::format(" At {} a wall or a fin ends on the body, and the winding number guesses what lies beside it: remove it.",
                         counted(facts.odd_edges, "edge") + " of three triangles or more");
   if (!facts.oriented)
     text +=

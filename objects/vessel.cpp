@@ -153,7 +153,7 @@ std::string set_volume(const MeshFacts& facts, const std::string& name, bool has
   body.volume = enclosed.volume;
   body.center_of_mass = enclosed.center;
   const char* cause = !facts.oriented        ? "its triangles cannot all face outward"
-                      : facts.odd_edges > 0  ? "a wall ends within it"
+                      : facts.odd_edges > 0  ? "a wall or a fin ends on it"
                       : facts.open_edges > 0 ? "its holes leave open what is inside"
                                              : "its bodies overlap";
   return fmt::format("{}: inside it are {}, by the lattice, and these are taken; make one closed body of it{}", cause,

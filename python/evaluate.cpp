@@ -12,10 +12,12 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "host/open_backend.h"
 #include "python/bind.h"
 #include "python/columns.h"
 #include "python/scene.h"
 #include "sweeps/different_grips.h"
+#include "sweeps/robust.h"
 
 namespace py = pybind11;
 
@@ -214,11 +216,44 @@ std::vector<std::size_t> different_grips(SceneHandle& handle, std::size_t vessel
   return places;
 }
 
+// The places of the first `best` grips, in their order by robust scores, and these scores: of candidates, the best by score first.
+py::tuple rank_by_robust_scores(SceneHandle& handle, std::size_t vessel, const GripArrays& arrays, std::size_t best) {
+  const GripColumns grips(arrays);
+  check_vessel(handle.described(), vessel);
+  std::vector<std::size_t> places;
+  std::vector<double> lows, means, shares;
+  std::atomic<bool> stop{false};
+  with_signals(stop, [&] {
+    grips.check(stop);
+    const Scene& scene = handle.whole("core");
+    const Plan plan(scene, false);
+    std::vector<std::vector<BestGrip>> lists(scene.vessels.size() * plan.hand_scales());
+    const std::size_t own = vessel * plan.hand_scales();
+    for (std::size_t i = 0; i < grips.count(); ++i) {
+      lists[own].emplace_back().candidate.index = i;
+      lists[own].back().grip = grips.grip(i);
+    }
+    const OpenBackend open = [](const Scene& other, const FieldSet& fields) {
+      return open_backend(other, fields, "core", Precision::full, 0);
+    };
+    if (!rank_robustly(open, scene, plan, best, &stop, lists)) return;
+    for (const BestGrip& grip : lists[own]) {
+      places.push_back(static_cast<std::size_t>(grip.candidate.index));
+      lows.push_back(grip.robust.low);
+      means.push_back(grip.robust.mean);
+      shares.push_back(grip.robust.share);
+    }
+  });
+  return py::make_tuple(places, lows, means, shares);
+}
+
 }  // namespace
 
 void bind_evaluate(py::module_& module) {
   module.def("evaluate", &evaluate, py::arg("scene"), py::arg("vessel"), py::arg("columns"), py::arg("variables"), py::arg("on"),
              py::arg("precision"), py::arg("threads"));
+  module.def("rank_by_robust_scores", &rank_by_robust_scores, py::arg("scene"), py::arg("vessel"), py::arg("columns"),
+             py::arg("best"));
   module.def("different_grips", &different_grips, py::arg("scene"), py::arg("vessel"), py::arg("columns"), py::arg("count"),
              py::arg("apart"));
   py::list names;

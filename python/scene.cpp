@@ -17,12 +17,14 @@
 #include "program/values.h"
 #include "program/vulkan_environment.h"
 #include "python/bind.h"
+#include "scene/new_scene.h"
 #include "scene/ranges.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/idle_notes.h"
 #include "sweeps/plan.h"
+#include "sweeps/robust.h"
 
 namespace py = pybind11;
 
@@ -159,6 +161,11 @@ HandlePointer scene_of_dataset(const std::string& text, const std::string& sourc
   return std::make_shared<SceneHandle>(std::move(scene));
 }
 
+std::string new_text(const std::string& name, const std::string& shape, const std::string& mesh,
+                     const std::vector<std::pair<std::string, double>>& numbers, std::optional<double> fill) {
+  return new_scene({name, shape, mesh, numbers, fill});
+}
+
 std::vector<std::string> vessel_names(const SceneHandle& scene) {
   std::vector<std::string> names;
   for (const VesselData& vessel : scene.described().vessels) names.push_back(vessel.name);
@@ -212,7 +219,11 @@ void bind_scene(py::module_& module) {
       .def_property_readonly("vessels", &vessel_names)
       .def_property_readonly("tilts", [](const SceneHandle& scene) { return scene.described().tilts; })
       .def_property_readonly("apart", [](const SceneHandle& scene) { return scene.described().output.apart; })
+      .def_property_readonly("has_robust", [](const SceneHandle& scene) { return scene.described().robust.has_value(); })
+      .def("robust_candidates",
+           [](const SceneHandle& scene, std::size_t best) { return robust_candidates(scene.described(), best); })
       .def_property_readonly("hand_scales", &hand_scales)
+      .def_property_readonly("has_effort", [](const SceneHandle& handle) { return has_effort(handle.described()); })
       .def_property_readonly("best", [](const SceneHandle& scene) { return scene.described().output.best; })
       .def("fills", &fills_of, py::arg("vessel"))
       .def(
@@ -231,6 +242,12 @@ void bind_scene(py::module_& module) {
   module.def("parse_scene", &parse_text, py::arg("text"), py::arg("name"));
   module.def("scene_of_dataset", &scene_of_dataset, py::arg("text"), py::arg("source"), py::arg("scene_file"), py::arg("version"),
              py::arg("keys"), py::arg("lattices"), py::call_guard<py::gil_scoped_release>());
+  module.def("new_scene_keys", [] {
+    std::vector<std::string> names;
+    for (const NewSceneKey& key : new_scene_keys()) names.emplace_back(key.name);
+    return names;
+  });
+  module.def("new_scene", &new_text, py::arg("name"), py::arg("shape"), py::arg("mesh"), py::arg("numbers"), py::arg("fill"));
   module.def("shipped_scenes", &shipped_scenes);
 }
 

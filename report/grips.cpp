@@ -48,7 +48,7 @@ std::string touching_text(const GripResult& result) {
 bool is_refined(const BestGrip& grip) { return !std::isnan(grip.refined_score); }
 bool has_refined(const ReportedGrips& best) { return std::any_of(best.grips.begin(), best.grips.end(), is_refined); }
 bool has_robust(const ReportedGrips& best) {
-  return std::any_of(best.grips.begin(), best.grips.end(), [](const BestGrip& grip) { return !std::isnan(grip.robust_mean); });
+  return std::any_of(best.grips.begin(), best.grips.end(), [](const BestGrip& grip) { return !std::isnan(grip.robust.mean); });
 }
 
 // With a plus where it is the largest tilt of the scene.
@@ -79,7 +79,7 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
   const bool tells_refined = has_refined(best);
   if (tells_refined) columns.insert(columns.end(), {"refined score", "refined grip"});
   const bool tells_robust = has_robust(best);
-  if (tells_robust) columns.insert(columns.end(), {"robust mean", "robust low"});
+  if (tells_robust) columns.insert(columns.end(), {"robust low", "robust mean", "share that holds"});
   HtmlTable table(html,
                   fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : counted(best.grips.size(), "grip"),
                               list_name(source.scene, plan, list)),
@@ -111,7 +111,8 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
       cells.push_back(shown_number(b.refined_score, 3));
       cells.push_back(is_refined(b) ? grip_text(plan, b.refined) : "");
     }
-    if (tells_robust) cells.insert(cells.end(), {shown_number(b.robust_mean, 3), shown_number(b.robust_low, 3)});
+    if (tells_robust)
+      cells.insert(cells.end(), {shown_number(b.robust.low, 3), shown_number(b.robust.mean, 3), shown_number(b.robust.share, 2)});
     table.row(cells);
   }
   table.end();
@@ -182,6 +183,11 @@ void write_limits(MarkupWriter& html, const ReportSource& source, std::size_t li
   html.close().close();
 }
 
+const char* no_best_grips(const Scene& scene) {
+  return has_effort(scene) ? "There are no best grips: no grip is feasible and plausible and holds."
+                           : "There are no best grips: no grip is feasible and plausible.";
+}
+
 }  // namespace
 
 std::string front_and_side(const std::string& drawing) {
@@ -216,7 +222,7 @@ ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
   std::vector<RankedCandidate> ranked;
   // of the sweep's own list
   std::vector<std::optional<RefinedGrip>> refined;
-  std::vector<std::array<double, 2>> robust;
+  std::vector<RobustScore> robust;
   if (source.lists) {
     ranked = (*source.lists)[list];
   } else {
@@ -240,10 +246,7 @@ ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
     best.grips[k].grip = source.plan.grip(vessel, candidates[k].index);
     best.grips[k].score = candidates[k].score;
     best.grips[k].rank = ranked[k].rank;
-    if (k < robust.size()) {
-      best.grips[k].robust_mean = robust[k][0];
-      best.grips[k].robust_low = robust[k][1];
-    }
+    if (k < robust.size()) best.grips[k].robust = robust[k];
     if (k >= refined.size() || !refined[k]) continue;
     best.grips[k].refined = refined[k]->grip;
     best.grips[k].refined_score = refined[k]->score;
@@ -259,7 +262,7 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
   html.element("h3", "The best grips" + of_hand, {{"id", id + "-best"}});
   if (best.grips.empty()) {
     html.element("p", source.lists                 ? fmt::format("{} lists no grips.", source.lists_file)
-                      : source.result.lists_best() ? "There are no best grips: no grip is feasible and plausible."
+                      : source.result.lists_best() ? no_best_grips(source.scene)
                                                    : "The sweep was not asked to list grips.");
     return;
   }
@@ -286,8 +289,9 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
         "included, describes the grip as it was swept.";
   if (has_robust(best))
     note += fmt::format(
-        " The sweep scored each grip at {} random deviations by [robust]: robust mean is the mean of these scores, and robust low "
-        "their 10th percentile.",
+        " The sweep ranked the grips by their scores at {} random deviations by [robust]: robust low is the 10th percentile of "
+        "these "
+        "scores, robust mean their mean, and the share that holds that of deviations which are feasible, plausible and held.",
         source.scene.robust->count);
   html.element("p", note, {{"class", "note"}});
   write_limits(html, source, list, reports);

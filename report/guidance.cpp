@@ -11,7 +11,7 @@
 #include "charts/field.h"
 #include "core/text.h"
 #include "grips/hand_nodes.h"
-#include "shaders/layout.h"
+#include "shaders/status.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -162,9 +162,7 @@ GuidedSample guided_grips(const ReportSource& source, std::size_t vessel) {
   for (const GuidancePoint& point : source.scene.vessels[vessel].guidance)
     points.push_back(guidance_place(*source.core, vessel, point));
   for (std::size_t i = 0; i < grips.size(); ++i) {
-    const std::uint32_t status = planes.uint(FIELD_STATUS, i);
-    const bool is_good = (status & STATUS_REASON_MASK) == REASON_NONE && (status & STATUS_PLAUSIBLE) != 0;
-    if (!knows_plausible && !is_good) continue;
+    if (!knows_plausible && !is_plausible(planes.uint(FIELD_STATUS, i))) continue;
     const int at = planes.fields.plane[FIELD_MIDPOINT];
     const double distance = guidance_distance(*source.core, source.scene, vessel, grips[i],
                                               {planes.real(at, i), planes.real(at + 1, i), planes.real(at + 2, i)},

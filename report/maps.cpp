@@ -113,7 +113,8 @@ FieldChart map_frame(const ReportSource& source, std::size_t vessel, const GripM
   chart.y_edges = map_edges(map.heights, 1e3 * (is_fraction ? data.height - data.base : 1), is_fraction ? 1e3 * data.base : 0);
   for (const MapCell& cell : map.cells) chart.kinds.push_back(cell.kind);
   const auto has = [&chart](CellKind kind) { return std::find(chart.kinds.begin(), chart.kinds.end(), kind) != chart.kinds.end(); };
-  if (has(CellKind::hollow)) chart.hollow = map.knows_reasons ? "only implausible" : "none plausible";
+  const bool may_fail = has_effort(source.scene);
+  if (has(CellKind::hollow)) chart.hollow = may_fail ? "none holds" : map.knows_reasons ? "only implausible" : "none plausible";
   if (has(CellKind::absent)) chart.absent = "none feasible";
   for (const Candidate& candidate : best) {
     const GripInput grip = source.plan.grip(vessel, candidate.index);
@@ -233,24 +234,33 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
   if (table) wanted.push_back({table, 0});
   const std::size_t overlap_at = wanted.size();
   if (overlap) wanted.push_back({overlap, 0});
-  read_columns(source, vessel, wanted, [&](std::uint64_t, std::size_t count, const std::vector<std::vector<double>>& columns) {
-    counts.grips += count;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double why = columns[0][i];
-      if (!(why >= 0 && why < static_cast<double>(counts.by_reason.size()))) continue;
-      ++counts.by_reason[static_cast<std::size_t>(why)];
-      if (why != 0) continue;
-      if (columns[1][i] == 0) {
-        const bool is_through = table && columns[table_at][i] == 1, is_overlap = overlap && columns[overlap_at][i] == 1;
-        ++counts.implausible;
-        counts.through_table += knows_parts && is_through ? 1 : 0;
-        counts.self_overlap += knows_parts && is_overlap ? 1 : 0;
-        counts.only_deep += knows_parts && !is_through && !is_overlap ? 1 : 0;
-      }
-      counts.antipodal += columns[2][i] == 1 ? 1 : 0;
-      counts.blocked += blocked && columns[3][i] > 0 ? 1 : 0;
-    }
-  });
+  const Variable *not_held = source.result.find("not_held"), *effort = effort_variable(source);
+  const std::size_t not_held_at = wanted.size();
+  if (not_held) wanted.push_back({not_held, 0});
+  const std::size_t effort_at = wanted.size();
+  if (effort) wanted.push_back({effort, 0});
+  read_columns(
+      source, vessel, wanted, [&](std::uint64_t first, std::size_t count, const std::vector<std::vector<double>>& columns) {
+        counts.grips += count;
+        for (std::size_t i = 0; i < count; ++i) {
+          const double why = columns[0][i];
+          if (!(why >= 0 && why < static_cast<double>(counts.by_reason.size()))) continue;
+          ++counts.by_reason[static_cast<std::size_t>(why)];
+          if (why != 0) continue;
+          if (columns[1][i] == 0) {
+            const bool is_through = table && columns[table_at][i] == 1, is_overlap = overlap && columns[overlap_at][i] == 1;
+            ++counts.implausible;
+            counts.through_table += knows_parts && is_through ? 1 : 0;
+            counts.self_overlap += knows_parts && is_overlap ? 1 : 0;
+            counts.only_deep += knows_parts && !is_through && !is_overlap ? 1 : 0;
+          }
+          counts.not_held += not_held && columns[not_held_at][i] == 1 ? 1 : 0;
+          if (effort && columns[effort_at][i] >= 0)
+            counts.least_bad = std::min(counts.least_bad, {columns[effort_at][i], LeastBad::ENDLESS, first + i});
+          counts.antipodal += columns[2][i] == 1 ? 1 : 0;
+          counts.blocked += blocked && columns[3][i] > 0 ? 1 : 0;
+        }
+      });
   return true;
 }
 
@@ -287,7 +297,7 @@ GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable*
                    MapCell& cell = map.cells[map.heights.cell(heights[i]) * map.rolls.cells() + map.rolls.cell(rolls[i])];
                    if (effort) take_effort(cell, columns[effort_at][i], first + i);
                    const double value = columns[0][i];
-                   if (!(value > 0 && std::isfinite(value))) {  // implausible
+                   if (!(value > 0 && std::isfinite(value))) {  // implausible, or not held
                      if (cell.kind == CellKind::absent) cell.kind = CellKind::hollow;
                      continue;
                    }
@@ -329,7 +339,9 @@ void write_maps(MarkupWriter& html, const ReportSource& source, std::size_t vess
   const MapCell* top = map.best();
   const std::string& name = source.scene.vessels[vessel].name;
   if (!top) {
-    html.element("p", "No grip of this vessel is feasible and plausible, so there is nothing to map.");
+    html.element("p", has_effort(source.scene)
+                          ? "No grip of this vessel is feasible and plausible and holds, so there is nothing to map."
+                          : "No grip of this vessel is feasible and plausible, so there is nothing to map.");
     return;
   }
   if (map.cells.size() == 1) {

@@ -23,6 +23,7 @@
 #include "report/style.h"
 #include "sweeps/edge.h"
 #include "sweeps/tally.h"
+#include "sweeps/unheld.h"
 #include "system/files.h"
 #include "system/readable.h"
 #include "system/version.h"
@@ -50,17 +51,6 @@ std::vector<Candidate> best_first(const std::vector<ReportedGrips>& lists) {
 std::string sentence(std::string line) {
   line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
   return line;
-}
-
-void write_head(MarkupWriter& html, const Scene& scene) {
-  html.open("head");
-  html.empty("meta", {{"charset", "utf-8"}});
-  html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
-  html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
-  html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
-  html.element("title", page_title(scene));
-  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(LINE_RULES).close();
-  html.close();
 }
 
 void write_contents(MarkupWriter& html, const Scene& scene) {
@@ -108,11 +98,12 @@ void write_words(MarkupWriter& html, bool has_table, bool has_efforts) {
          "least share of its strength that the digit nearest to its limit must give so that all contacts of the hand hold the "
          "vessel; up to 1 the hand holds; infinite where no force does");
     word("worst effort", "largest effort over all tilts and fills; the state that has it is the hardest");
+    word("not held", "plausible, but the worst effort is above 1: the hand is too weak, or friction is too small");
     word("margin", "how many times over a grip keeps to a limit; below 1 it does not");
   }
   word("score",
        "sum of six terms from 0 to 1, each times its weight: fingers used, points touching, depth, posture, feedback force, and "
-       "what holding takes; an infeasible or implausible grip scores 0");
+       "what holding takes; an infeasible or implausible grip, and one that is not held, scores 0");
   html.close().close();
 }
 
@@ -121,8 +112,7 @@ class Page {
   explicit Page(const ReportSource& source) : source_(source), scene_(source.scene) {}
 
   std::string write() {
-    html_.markup("<!DOCTYPE html>\n").open("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}});
-    write_head(html_, scene_);
+    begin_page(html_, page_title(scene_));
     html_.open("body").open("header").element("h1", page_title(scene_));
     html_.element(
         "p",
@@ -183,6 +173,8 @@ class Page {
     const bool knows_reasons = read_counts(source_, v, counts);
     if (!knows_reasons) counts.grips = source_.plan.grips();
     html_.open("p").text(counts_line(counts, knows_reasons, source_.plan.copies()) + ".");
+    if (counts.none_holds() && counts.least_bad.is_known() && source_.core)
+      html_.text(" " + sentence(unheld_line(*source_.core, scene_, source_.plan, v, counts.least_bad)) + ".");
     for (const ReportedGrips& best : lists) {
       if (best.grips.empty()) continue;
       const BestGrip& first = best.grips[0];
@@ -228,6 +220,18 @@ std::string report_page(SweepResult& result, const Scene& given, const std::stri
     }
   }
   return Page(source).write();
+}
+
+void begin_page(MarkupWriter& html, const std::string& title) {
+  html.markup("<!DOCTYPE html>\n").open("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}});
+  html.open("head");
+  html.empty("meta", {{"charset", "utf-8"}});
+  html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
+  html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
+  html.element("title", title);
+  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(LINE_RULES).close();
+  html.close();
 }
 
 void check_overwrites_page(const std::string& path, const std::string& result) {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "charts/markup.h"
 #include "core/scene.h"
 #include "sweeps/sweep_result.h"
 
@@ -15,6 +16,9 @@ namespace wholehand {
 // (usage) where the file does not fit its scene, or the list the file.
 std::string report_page(SweepResult& result, const Scene& scene, const std::string& trouble = "",
                         const std::string& lists_file = "");
+
+// The start of such a page: the element html, which stays open, and its head with the style and the mark of a page of wholehand's.
+void begin_page(MarkupWriter& html, const std::string& title);
 
 // Throws Error (usage) where `path` may not be written over: it is the result file itself, or something is there that is no such page.
 void check_overwrites_page(const std::string& path, const std::string& result);

@@ -101,15 +101,6 @@ std::string hold_text(const Scene& scene) {
                      joined(digits, ", "));
 }
 
-std::string weights_text(const Scene& scene) {
-  const auto weights = effective_weights(scene);
-  const std::array<const char*, 6> names{"fingers", "contacts", "depth", "posture", "force", "hold"};
-  std::vector<std::string> parts;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (weights[k] > 0) parts.push_back(fmt::format("{} {}", names[k], plain_number(weights[k])));
-  return joined(parts, ", ");
-}
-
 std::string form_text(const VesselData& vessel) {
   if (vessel.mesh) return "mesh " + vessel.mesh->file;
   return fmt::format("outline of {}{}", counted(vessel.outline.size(), "element"),
@@ -159,6 +150,15 @@ void write_vessels(MarkupWriter& html, const ReportSource& source) {
 }
 
 }  // namespace
+
+std::string weights_text(const Scene& scene) {
+  const auto weights = effective_weights(scene);
+  const std::array<const char*, 6> names{"fingers", "contacts", "depth", "posture", "force", "hold"};
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (weights[k] > 0) parts.push_back(fmt::format("{} {}", names[k], plain_number(weights[k])));
+  return joined(parts, ", ");
+}
 
 void write_scene(MarkupWriter& html, const ReportSource& source) {
   const Scene& scene = source.scene;

@@ -43,14 +43,15 @@ std::string axis_text(const PlanAxis& axis, double scale, const std::string& uni
   return fmt::format("{} ({} values)", ends, readable_number(axis.values.size()));
 }
 
-std::string grip_text(const Plan& plan, const GripInput& grip) {
-  std::string text = fmt::format("height {} mm", shown_number(grip.height * 1e3, 1));
+std::string grip_text(const Plan& plan, const GripInput& grip, std::string (*number)(double value, int digits),
+                      const char* degree) {
+  std::string text = fmt::format("height {} mm", number(grip.height * 1e3, 1));
   const auto add = [&](int place, const char* name, double value, int digits, const char* unit) {
-    if (plan.varies(place)) text += fmt::format(", {} {}{}", name, shown_number(value, digits), unit);
+    if (plan.varies(place)) text += fmt::format(", {} {}{}", name, number(value, digits), unit);
   };
-  add(PLACE_ROLL, "roll", degrees(grip.roll), 1, "°");
-  add(PLACE_OBLIQUITY, "obliquity", degrees(grip.obliquity), 1, "°");
-  add(PLACE_AZIMUTH, "azimuth", degrees(grip.azimuth), 1, "°");
+  add(PLACE_ROLL, "roll", degrees(grip.roll), 1, degree);
+  add(PLACE_OBLIQUITY, "obliquity", degrees(grip.obliquity), 1, degree);
+  add(PLACE_AZIMUTH, "azimuth", degrees(grip.azimuth), 1, degree);
   add(PLACE_OFFSET, "offset", grip.offset * 1e3, 1, " mm");
   add(PLACE_HAND_SCALE, "hand scale", grip.hand_scale, 3, "");
   return text;

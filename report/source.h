@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "charts/markup.h"
 #include "core/gather.h"
 #include "report/html.h"
 #include "sweeps/grip_lists.h"
@@ -39,6 +40,8 @@ GatheredPlanes planes_by_core(const ReportSource& source, std::size_t vessel, co
 std::string axis_text(const PlanAxis& axis, double scale, const std::string& unit);
 
 // "58.5 mm", "roll 22.0°, ..": the grip by those of its axes that vary in the sweep.
-std::string grip_text(const Plan& plan, const GripInput& grip);
+// For a page; elsewhere numbers and degrees are written in another way.
+std::string grip_text(const Plan& plan, const GripInput& grip, std::string (*number)(double value, int digits) = shown_number,
+                      const char* degree = "°");
 
 }  // namespace wholehand

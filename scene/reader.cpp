@@ -14,7 +14,6 @@
 #include "core/hand_size.h"
 #include "scene/parts.h"
 #include "scene/scan.h"
-#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -82,8 +81,9 @@ SceneDefaults defaults_of(const std::string& version) {
 
 Scene parse_scene(std::string_view text, const std::string& name, const SceneDefaults& unnamed) {
   const SceneFile file(name);
+  static_assert(ranges::LARGEST_FILE == 1 << 20, "as the line below says");
   if (text.size() > ranges::LARGEST_FILE) {
-    file.refuse({}, fmt::format("more than {} bytes", readable_number(ranges::LARGEST_FILE)), "allowed: a scene of at most 1 MiB");
+    file.refuse({}, "more than 1,048,576 bytes", "allowed: a scene of at most 1 MiB");
   }
   scan_scene(file, text);
   const toml::table table = parse_table(file, text, name);

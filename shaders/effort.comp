@@ -28,7 +28,7 @@ void put_worst(Real worst, Vec4 tilted, uint grip) {
 // Whether this task has something to do for a grip. NaN where a grip is not plausible.
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  if (is_to_solve(status))
+  if (is_plausible(status))
     return TASK != EFFORT_SAFE || kept(PLANE_WORST_EFFORT, 0, grip) > JUST_HELD;
   if (TASK == EFFORT_SAFE) {
     for (uint fill = 0u; fill < scene.fills; ++fill) put_real(PLANE_SAFE_TILT, int(fill), grip, NOT_A_NUMBER);

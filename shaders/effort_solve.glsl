@@ -7,6 +7,7 @@
 #include "gauge.glsl"
 #include "grips.glsl"
 #include "planes.glsl"
+#include "status.h"
 #include "trig.glsl"
 
 #define HALF_TOLERANCE (Real(0.5) * EFFORT_TOLERANCE)
@@ -69,8 +70,6 @@ void load_contacts(uint grip) {
     weakest = presses ? min(weakest, shares[digit_of(j)]) : weakest;
   }
   center /= max(count, Real(1));
-  bool has_opening = scene.by_opening > Real(0) && is_pressing(THUMB_TIP) && is_pressing(INDEX_TIP);
-  Real share = has_opening ? strength_at(length(arms[INDEX_TIP] - arms[THUMB_TIP])) : Real(1);
   unit_length = max(LEAST_LENGTH, scene.torsion);
   [[unroll]] for (int j = 0; j < JOINTS; ++j) {
     arms[j] = is_pressing(j) ? arms[j] - center : Vec3(0);
@@ -87,7 +86,10 @@ void load_contacts(uint grip) {
   gamma = scene.torsion / unit_length;
   [[unroll]] for (int j = 0; j < JOINTS; ++j) arms[j] /= unit_length;
   [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) shares[digit] /= unit_force;
-  unit_force *= share;
+  if (PLANE_GAP >= 0 && scene.tip_radii > Real(0)) {
+    Real gap = real_out[uint(PLANE_GAP) * push.stride + grip];
+    unit_force *= strength_at(gap - grip_axis(AXIS_HAND_SCALE, grip) * scene.tip_radii);
+  }
 }
 
 // h(u), and the point of Z where it is attained: of each digit the contact that does most, where it does more than nothing.
@@ -201,8 +203,6 @@ void finish(inout Solve solve) {
 }
 
 Real kept(int plane, int offset, uint grip) { return plane >= 0 ? real_out[uint(plane + offset) * push.stride + grip] : NOT_A_NUMBER; }
-
-bool is_to_solve(uint status) { return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) == STATUS_PLAUSIBLE; }
 
 // Where a grip's turns ran out before its states did.
 void leave_unfinished(uint grip, bool is_unfinished) {

@@ -116,6 +116,7 @@
 #define STATUS_CONTACT_UNDECIDED 0x8000 // bit 15: a point or a sphere is within CONTACT_MARGIN of being a contact, or of being none
 #define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
 #define STATUS_OUT_OF_TURNS 0x200000 // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
+#define STATUS_NOT_HELD 0x400000    // bit 22: a plausible grip whose worst effort is above 1
 
 // ---- kinds, as specialization constants ----
 #define POSE_ARTICULATED 0
@@ -322,7 +323,7 @@ struct Parameters {
   Real friction_angle;    // atan(mu), rad
   Real grip_strength;     // N
   Real thumb_strength, index_strength, middle_strength, ring_strength, little_strength, palm_strength;  // N
-  Real by_opening;        // 1: the strengths shrink as the hand opens, 0: they do not
+  Real tip_radii;         // m, of thumb and index finger together, at the scene's scale; 0: strengths are the same at every opening
   Real pour_sense;        // +1 away, -1 towards
   Real table_top;         // m, the table's height and the clearance
   Real weight_fingers, weight_contacts, weight_depth, weight_posture, weight_force, weight_hold;

@@ -100,7 +100,9 @@ Real place_step(Support support, Real separation, Place place, FingerFrame frame
 }
 
 bool passes_close(Support support, Real separation, Place place, FingerFrame frame) {
-  Vec2 normal = Vec2(dot(support.normal, frame.forward), dot(support.normal, frame.palmward));
+  Vec3 wall = support.normal;
+  if (SDF_KIND == SDF_LATTICE && abs(separation) <= CONTACT_MARGIN) wall = lattice_gradient(place.ball.place);
+  Vec2 normal = Vec2(dot(wall, frame.forward), dot(wall, frame.palmward));
   Real closing = dot(normal, place.velocity), leaving = dot(normal, place.acceleration);
   Real across = dot(place.velocity, place.velocity) - closing * closing;
   Real most = larger(Real(0), leaving) + across / larger(place.ball.radius, RATIO(1, 1000));

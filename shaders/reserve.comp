@@ -66,7 +66,7 @@ int plane_of_task() { return TASK == EFFORT_PUSH ? PLANE_PUSH : PLANE_FRICTION_N
 
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  if (is_to_solve(status))
+  if (is_plausible(status))
     return TASK == EFFORT_PUSH || push.first == 0u || kept(plane_of_task(), 0, grip) < INFINITE;
   put_real(plane_of_task(), 0, grip, NOT_A_NUMBER);
   return false;

@@ -5,6 +5,7 @@
 
 #include "planes.glsl"
 #include "score.glsl"
+#include "status.h"
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 
@@ -29,8 +30,10 @@ void main() {
       terms[5] = hold_term(largest_hold, scene.grip_strength);
       // that of an implausible grip is 0
       if (PLANE_WORST_EFFORT >= 0) {
-        bool is_plausible = (status & STATUS_PLAUSIBLE) != 0u;
-        terms[5] = is_plausible ? effort_term(real_out[uint(PLANE_WORST_EFFORT) * push.stride + grip]) : Real(0);
+        Real worst = real_out[uint(PLANE_WORST_EFFORT) * push.stride + grip];
+        terms[5] = is_plausible(status) ? effort_term(worst) : Real(0);
+        if (is_plausible(status) && !effort_holds(worst)) status |= STATUS_NOT_HELD;
+        put_uint(PLANE_STATUS, grip, status);
       }
     }
     precise Real sum = scene.weight_fingers * terms[0];
@@ -39,7 +42,7 @@ void main() {
     sum += scene.weight_posture * terms[3];
     sum += scene.weight_force * terms[4];
     sum += scene.weight_hold * terms[5];
-    score = (status & STATUS_PLAUSIBLE) != 0u ? sum : Real(0);
+    score = is_eligible(status) ? sum : Real(0);
   }
   put_real(PLANE_SCORE, 0, grip, score);
   if (PLANE_TERMS >= 0)

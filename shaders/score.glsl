@@ -23,4 +23,6 @@ Real hold_term(Real largest_hold, Real grip_strength) {
 
 Real effort_term(Real worst_effort) { return Real(1) / (Real(1) + worst_effort); }
 
+bool effort_holds(Real worst_effort) { return worst_effort <= Real(1); }
+
 #endif

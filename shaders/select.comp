@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "planes.glsl"
+#include "status.h"
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(std430, binding = BINDING_CANDIDATES) buffer CandidateBlock { Real candidate_scores[]; };
@@ -47,7 +48,7 @@ void main() {
     uint index = entry;
     if (from_scores) {
       uint status = uint_out[uint(PLANE_STATUS) * push.stride + entry];
-      if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) != STATUS_PLAUSIBLE) continue;
+      if (!is_eligible(status)) continue;
     } else {
       index = candidate_indices[from + entry];
     }

@@ -10,6 +10,7 @@
 
 #include "core/counted_tilts.h"
 #include "core/error.h"
+#include "core/load.h"
 #include "core/nearest.h"
 #include "shaders/layout.h"
 #include "sweeps/variables.h"
@@ -22,9 +23,10 @@ namespace {
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
 BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, const Scene& scene,
-                   const std::vector<double>& last_tilts) {
+                   const std::vector<double>& last_tilts, const GripInput& grip) {
   const auto real = [&](int field, int plane = 0) { return chunk.real(fields.plane[field] + plane, i); };
   BestGrip best;
+  best.grip = grip;
   best.score = real(FIELD_SCORE);
   for (int term = 0; term < 6; ++term) best.terms[term] = real(FIELD_TERMS, term);
   best.closure = real(FIELD_CLOSURE);
@@ -51,10 +53,12 @@ struct Column {
 
 std::vector<int> best_fields(const Scene& scene) {
   std::vector<int> fields{FIELD_GAP, FIELD_CLOSURE, FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH};
-  if (!scene.tilts.empty()) fields.insert(fields.end(), {FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD, FIELD_SAFE_TILT});
+  if (!scene.tilts.empty()) fields.insert(fields.end(), {FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_SAFE_TILT});
   if (has_effort(scene)) {
     fields.insert(fields.end(), {FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT, FIELD_TIPS_WORST_EFFORT,
                                  FIELD_PUSH, FIELD_FRICTION_NEEDED});
+  } else if (!scene.tilts.empty()) {
+    fields.push_back(FIELD_LARGEST_HOLD);
   }
   fields.insert(fields.end(), {FIELD_SCORE, FIELD_TERMS, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_USED_MASK});
   return fields;
@@ -72,8 +76,7 @@ void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& la
       best.peak_force = value(FIELD_PEAK_FORCE, fill);
       best.peak_tilt = nearest_value(scene.tilts, value(FIELD_PEAK_TILT, fill));
     }
-    const double hold = value(FIELD_LARGEST_HOLD, fill);  // NaN of an implausible grip
-    if (!(hold <= best.largest_hold)) best.largest_hold = hold;
+    if (!has_effort(scene)) best.largest_hold = std::max(best.largest_hold, value(FIELD_LARGEST_HOLD, fill));
     const double safe = nearest_value(scene.tilts, value(FIELD_SAFE_TILT, fill));
     if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
     best.is_safe_to_end = best.is_safe_to_end && safe >= last_tilts.at(static_cast<std::size_t>(fill));
@@ -85,6 +88,8 @@ void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& la
                   value(FIELD_TIPS_WORST_EFFORT, 0),
                   value(FIELD_PUSH, 0),
                   value(FIELD_FRICTION_NEEDED, 0)};
+  const core_f64::HandStrength hand = core_f64::load_strength(scene, best.gap, scene.hand.scale * best.grip.hand_scale);
+  best.largest_hold = best.efforts.tips_worst * hand.weaker_tip();
 }
 
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
@@ -101,9 +106,9 @@ std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const 
   request.sink = [&](const PlaneChunk& chunk) {
     for (std::size_t i = 0; i < chunk.count; ++i) {
       BestGrip& grip = best[chunk.first + i];
-      grip = read_best(chunk, backend.fields(), i, scene, last);
-      grip.candidate = candidates[chunk.first + i];
-      grip.grip = plan.grip(vessel, grip.candidate.index);
+      const Candidate& candidate = candidates[chunk.first + i];
+      grip = read_best(chunk, backend.fields(), i, scene, last, plan.grip(vessel, candidate.index));
+      grip.candidate = candidate;
       grip.rank = chunk.first + i + 1;
     }
   };
@@ -115,6 +120,13 @@ std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const 
   return best;
 }
 
+BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candidate) {
+  BestGrip grip;
+  grip.candidate = candidate;
+  grip.grip = plan.grip(vessel, candidate.index);
+  return grip;
+}
+
 std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
                      const ListOrigin& origin) {
   std::string csv(BEST_CSV_START);
@@ -123,9 +135,9 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       "depth,"
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
       "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,"
-      "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,"
+      "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,"
       "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,";
-  if (scene.robust) csv += "robust_mean,robust_low,";
+  if (scene.robust) csv += "robust_mean,robust_low,robust_share,";
   csv += "grip,result,sweep\n";
   for (std::size_t list = 0; list < lists.size(); ++list) {
     const std::string& vessel = scene.vessels[list / plan.hand_scales()].name;
@@ -144,13 +156,13 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
                       degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
       const GripEfforts& efforts = best.efforts;
       numbers.insert(numbers.end(), {efforts.worst, efforts.fill, degrees(efforts.tilt), efforts.tips_worst, efforts.push,
-                                     efforts.friction_needed});
+                                     efforts.friction_needed, held_margin(efforts.worst)});
       const GripInput& refined = best.refined;
       const bool is_refined = !std::isnan(best.refined_score);
       for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),
                                   degrees(refined.roll), refined.offset * 1e3})
         numbers.push_back(is_refined ? number : NOT_A_NUMBER);
-      if (scene.robust) numbers.insert(numbers.end(), {best.robust_mean, best.robust_low});
+      if (scene.robust) numbers.insert(numbers.end(), {best.robust.mean, best.robust.low, best.robust.share});
       csv += fmt::format("{},{}", csv_text(vessel), best.rank);
       for (const double number : numbers) csv += "," + csv_number(number);
       csv += fmt::format(",{},{},{}\n", best.candidate.index, csv_text(origin.result), origin.sweep);
@@ -164,8 +176,9 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   if (std::any_of(best.begin(), best.end(), [](const BestGrip& b) { return !std::isnan(b.refined_score); }))
     columns.push_back({"refined", [](const BestGrip& b) { return fixed_text(b.refined_score, 3); }});
   if (scene.robust) {
-    columns.push_back({"robust", [](const BestGrip& b) { return fixed_text(b.robust_mean, 3); }});
-    columns.push_back({"robust low", [](const BestGrip& b) { return fixed_text(b.robust_low, 3); }});
+    columns.push_back({"robust low", [](const BestGrip& b) { return fixed_text(b.robust.low, 3); }});
+    columns.push_back({"mean", [](const BestGrip& b) { return fixed_text(b.robust.mean, 3); }});
+    columns.push_back({"holds %", [](const BestGrip& b) { return fixed_text(100 * b.robust.share, 0); }});
   }
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
     if (plan.varies(place)) columns.push_back({title, cell});
@@ -198,6 +211,7 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   }
   if (has_effort(scene)) {
     columns.push_back({"effort", [](const BestGrip& b) { return fixed_text(b.efforts.worst, 3); }});
+    columns.push_back({"margin", [](const BestGrip& b) { return fixed_text(held_margin(b.efforts.worst), 2); }});
     columns.push_back({"push N", [](const BestGrip& b) { return fixed_text(b.efforts.push, 1); }});
   }
   std::string table = "  rank";

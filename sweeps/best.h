@@ -25,6 +25,13 @@ struct GripEfforts {
   double friction_needed = worst;
 };
 
+// Over deviations of a grip (sweeps/robust.h).
+struct RobustScore {
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double low = mean;    // 10th percentile
+  double share = mean;  // of the deviations that are feasible, plausible and held
+};
+
 // One of the best grips with what is told of it. Forces and tilts are the worst over all fills; NaN where the scene has no tilts.
 struct BestGrip {
   Candidate candidate;
@@ -45,8 +52,11 @@ struct BestGrip {
   GripEfforts efforts;                       // NaN in a scene without efforts
   GripInput refined{};                       // the best place near the grip (sweeps/refine.h), where there is a score of it
   double refined_score = std::numeric_limits<double>::quiet_NaN();
-  double robust_mean = refined_score, robust_low = refined_score;  // sweeps/robust.h; NaN in a scene without [robust]
+  RobustScore robust{};  // NaN in a scene without [robust]
 };
+
+// A candidate of the vessel at its place; nothing else is known of it.
+BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candidate);
 
 // FIELD_* that a BestGrip is read from.
 std::vector<int> best_fields(const Scene& scene);
@@ -56,7 +66,7 @@ std::vector<int> best_fields(const Scene& scene);
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
                                     const std::vector<Candidate>& candidates);
 
-// Sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of
+// With gap and grip set: sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of
 // each. With efforts it sets these too, and the hold force follows from that of the tips: FIELD_LARGEST_HOLD is not asked for then.
 // `last_tilts` are those of the vessel (core/counted_tilts.h).
 void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& last_tilts,

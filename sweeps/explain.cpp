@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/core_backend.h"
@@ -24,15 +26,14 @@
 namespace wholehand {
 namespace {
 
-constexpr std::uint64_t PARTS = 9;
+constexpr std::uint64_t RUNS = 6;         // of each way; the first makes ready
 constexpr long long SEARCHED_GRIPS = 64;  // for the figures of the search, at most
 
 // A way to evaluate the sample: what it took a grip, and what a grip takes in memory.
 struct Measured {
   double seconds = 0;
   std::size_t bytes = 0;
-  double noise = 0;    // s, between the shortest runs
-  double opening = 0;  // s, until the first run began to compute grips
+  double noise = 0;  // s, between the shortest runs
 };
 
 std::string us(double microseconds) { return fixed_text(microseconds, 3); }
@@ -50,7 +51,18 @@ class Explainer {
     for (std::uint64_t i = 0; i < options.grips; ++i) sample_.push_back(plan.grip(0, i * all / options.grips % all));
   }
 
+  // Counts the ways first, so that the time is known when the first way is measured.
   std::string run() {
+    is_counting_ = true;
+    explain();
+    progress_.emplace(RUNS * std::exchange(measured_, 0), 0, "runs");
+    is_counting_ = false;
+    text_.clear();
+    return explain();
+  }
+
+ private:
+  std::string explain() {
     const Measured as_is = measure(scene_, fields_, OUTLINE_SPECIALIZED);
     say("what the sweep leaves out, and what this saves per grip (both ways ran on {} of {}; this sweep: {} us, {} B)\n",
         counted(sample_.size(), "grip"), scene_.vessels[0].name, us(microseconds(as_is)), readable_number(as_is.bytes));
@@ -66,22 +78,20 @@ class Explainer {
             MAX_OUTLINE);
       }
     }
-    done_ = 1;
-    planes(as_is), ++done_;
-    pose(as_is), ++done_;
-    surface(as_is), ++done_;
-    force(as_is), ++done_;
-    liquid(as_is), ++done_;
-    table(as_is), ++done_;
-    body(as_is), ++done_;
-    efforts(as_is), ++done_;
+    planes(as_is);
+    pose(as_is);
+    surface(as_is);
+    force(as_is);
+    liquid(as_is);
+    table(as_is);
+    body(as_is);
+    efforts(as_is);
     robust();
     poured();
     azimuth();
     return text_;
   }
 
- private:
   template <class... Args>
   void say(fmt::format_string<Args...> format, Args&&... args) {
     append_formatted(text_, format, std::forward<Args>(args)...);
@@ -104,24 +114,30 @@ class Explainer {
     return static_cast<int>(longest);
   }
 
-  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline) const {
-    const double opened = monotonic_now();
+  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline) {
+    return measure(scene, fields, outline, on_core_, options_.precision);
+  }
+
+  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline, bool on_core, Precision precision) {
+    ++measured_;
+    if (is_counting_) return {1, 0, 0};
+    const double began = monotonic_now();
     std::unique_ptr<Backend> backend;
     Measured result;
-    if (on_core_) {
-      auto core = options_.precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
-      backend = std::make_unique<CoreBackend>(std::move(core), scene, fields, options_.precision, options_.threads);
+    if (on_core) {
+      auto core = precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
+      backend = std::make_unique<CoreBackend>(std::move(core), scene, fields, precision, options_.threads);
       result.bytes = fields.real_planes * sizeof(double) + fields.uint_planes * sizeof(std::uint32_t);
     } else {
       host::GripBackendOptions options;
-      options.precision = options_.precision;
+      options.precision = precision;
       options.outline = outline;
       auto device = std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, options_.on, options);
       result.bytes = device->bytes_per_grip();
       backend = std::move(device);
     }
     std::vector<double> runs;
-    for (int run = 0; run < 6; ++run) {
+    for (std::uint64_t run = 0; run < RUNS; ++run) {
       RunRequest request;
       request.last = sample_.size();
       request.grips = [this](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
@@ -130,16 +146,12 @@ class Explainer {
       const double start = monotonic_now();
       backend->run(request);
       const double seconds = monotonic_now() - start;
-      progress_.update("explaining", done_);
-      if (run > 0) {
-        runs.push_back(seconds);
-      } else {  // the first compiles
-        result.opening = monotonic_now() - opened;
-      }
+      progress_->update("explaining", RUNS * (measured_ - 1) + run + 1);
+      if (run > 0) runs.push_back(seconds);  // the first compiles
     }
+    if (measured_ == 1) announce_time("explaining", (monotonic_now() - began) * static_cast<double>(progress_->total() / RUNS));
     std::sort(runs.begin(), runs.end());
     result.seconds = runs[0];
-    result.opening = std::max(0.0, result.opening - result.seconds);
     result.noise = runs[2] - runs[0];
     return result;
   }
@@ -279,6 +291,7 @@ class Explainer {
   }
 
   void searches() {
+    if (is_counting_) return;
     const auto core = make_core_evaluator(scene_);
     long long grips = 0, states = 0, skipped = 0, pivots = 0;
     for (std::size_t i = 0; i < sample_.size() && grips < SEARCHED_GRIPS;
@@ -304,17 +317,15 @@ class Explainer {
   void robust() {
     if (!scene_.robust || options_.best == 0) return;
     const std::size_t lists = scene_.vessels.size() * plan_.hand_scales(), count = static_cast<std::size_t>(scene_.robust->count);
-    const std::size_t grips = lists * std::min(options_.best, MOST_ROBUST);
-    const std::size_t backends = robust_frictions(scene_).size();
+    const std::size_t listed = lists * std::min(options_.best, MOST_ROBUST), judged = ROBUST_CANDIDATES * listed;
     const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_);
-    measure(scene_, fields, OUTLINE_SPECIALIZED);  // the driver compiles once for all frictions, and keeps that
-    const Measured scored = measure(scene_, fields, OUTLINE_SPECIALIZED);
-    const double each = microseconds(scored);
-    say("  not left out: the robust scores, {} deviations of {} best grips at most, which cost {:.3g} s a sweep ({} us each), "
-        "and {:.3g} s to begin with {}\n",
-        readable_number(count), readable_number(grips), static_cast<double>(count * grips) * each * 1e-6, us(each),
-        static_cast<double>(backends) * scored.opening,
-        backends > 1 ? fmt::format("each of {} frictions", backends) : "one friction");
+    const double each = microseconds(measure(scene_, fields, OUTLINE_SPECIALIZED, true, Precision::full));
+    const auto cost = [&](std::size_t grips) { return static_cast<double>(grips * count) * each * 1e-6; };
+    say("  not left out: the robust scores by the core, {} deviations of the {} listed grips, which cost {:.3g} s a sweep ({} us "
+        "each); "
+        "of {} candidates those that cannot be listed are judged at fewer, which saves up to {:.3g} s\n",
+        readable_number(count), readable_number(listed), cost(listed), us(each), readable_number(judged),
+        cost(judged) - cost(listed));
   }
 
   // Told, not measured: a device goes through these states all the same.
@@ -365,8 +376,9 @@ class Explainer {
   bool on_core_;
   std::vector<GripInput> sample_;
   std::string text_;
-  std::uint64_t done_ = 0;  // parts: what is as it is, then those of run but for the last, quick ones
-  mutable Progress progress_{PARTS, 0, "parts"};
+  bool is_counting_ = false;    // the ways that explain measures; nothing is measured then
+  std::uint64_t measured_ = 0;  // ways
+  std::optional<Progress> progress_;
 };
 
 }  // namespace

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "sweeps/hand_lists.h"
 
-#include "shaders/layout.h"
+#include "shaders/status.h"
 
 namespace wholehand {
 
-namespace {
-
-bool is_eligible(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i) {
-  const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
-  return (status & STATUS_REASON_MASK) == REASON_NONE && (status & STATUS_PLAUSIBLE) != 0;
-}
-
-}  // namespace
-
 void add_eligible(const PlaneChunk& chunk, const FieldSet& fields, std::vector<Candidate>& eligible) {
   for (std::size_t i = 0; i < chunk.count; ++i)
-    if (is_eligible(chunk, fields, i)) eligible.push_back({chunk.real(fields.plane[FIELD_SCORE], i), chunk.first + i});
+    if (is_eligible(chunk.uint(fields.plane[FIELD_STATUS], i)))
+      eligible.push_back({chunk.real(fields.plane[FIELD_SCORE], i), chunk.first + i});
 }
 
 HandLists::HandLists(const Plan& plan, std::size_t size, const std::vector<Candidate>& candidates)
@@ -28,7 +20,8 @@ void HandLists::offer(const PlaneChunk& chunk, const FieldSet& fields) {
   hands_.resize(chunk.count);
   plan_.hand_scales_of(chunk.first, chunk.count, hands_.data());
   for (std::size_t i = 0; i < chunk.count; ++i) {
-    if (is_eligible(chunk, fields, i)) lists_[hands_[i]].offer({chunk.real(fields.plane[FIELD_SCORE], i), chunk.first + i});
+    if (is_eligible(chunk.uint(fields.plane[FIELD_STATUS], i)))
+      lists_[hands_[i]].offer({chunk.real(fields.plane[FIELD_SCORE], i), chunk.first + i});
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// Adds the feasible, plausible grips of a chunk whose score and status are kept.
+// Adds the eligible grips (shaders/status.h) of a chunk whose score and status are kept.
 void add_eligible(const PlaneChunk& chunk, const FieldSet& fields, std::vector<Candidate>& eligible);
 
 class HandLists {
@@ -19,7 +19,7 @@ class HandLists {
   // The `size` best of each of the plan's hand scales; begins with those of `candidates`, in any order. The plan must outlive the object.
   HandLists(const Plan& plan, std::size_t size, const std::vector<Candidate>& candidates);
 
-  // The feasible, plausible grips of a chunk, whose score and status are kept; and single grips.
+  // The eligible grips of a chunk, whose score and status are kept; and single grips.
   void offer(const PlaneChunk& chunk, const FieldSet& fields);
   void offer(const std::vector<Candidate>& candidates);
   bool takes(const Candidate& candidate) const;  // whether it would get in

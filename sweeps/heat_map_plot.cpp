@@ -13,7 +13,7 @@ namespace {
 
 constexpr double MAP_WIDTH = 480, MAP_HEIGHT = 280, MAP_SCALE = 1.5;  // units of the picture and of its cells; pixels a unit
 
-// A cell whose best grip is implausible has score 0: not a low score but none.
+// A cell whose grips are implausible, or do not hold, has score 0: not a low score but none.
 bool has_score(double score) { return score > 0 && std::isfinite(score); }
 
 CellKind kind_of(double score) {
@@ -54,7 +54,7 @@ std::string spoken(const FieldChart& chart) {
                     shown_number(chart.values[best], 3), shown_number(0.5 * (chart.x_edges[column] + chart.x_edges[column + 1]), 1),
                     shown_number(0.5 * (chart.y_edges[row] + chart.y_edges[row + 1]), 1));
   }
-  return text + fmt::format(" Cells with only implausible grips: {}. Cells without a feasible grip: {}.", count(CellKind::hollow),
+  return text + fmt::format(" Cells with {}: {}. Cells without a feasible grip: {}.", chart.hollow, count(CellKind::hollow),
                             count(CellKind::absent));
 }
 
@@ -71,7 +71,7 @@ FieldChart map_chart(const HeatMapPicture& picture, const ColorScale& scale) {
     chart.y_edges.push_back((picture.height_zero + map.heights().edge(h) * picture.height_unit) * 1e3);
   chart.values = map.scores();
   for (const double score : chart.values) chart.kinds.push_back(kind_of(score));
-  chart.hollow = "only implausible grips";
+  chart.hollow = picture.hollow;
   chart.absent = "no feasible grip";
   chart.scale = scale;
   chart.name = {"", picture.title, spoken(chart)};
@@ -116,6 +116,7 @@ std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan,
   for (std::size_t v = 0; v < maps.size(); ++v) {
     const VesselData& vessel = scene.vessels[v];
     HeatMapPicture picture{names.heat_map(parts[v]), fmt::format("{}: {}", vessel.name, maximised), &maps[v]};
+    if (has_effort(scene)) picture.hollow = "no grip that holds";
     if (scene.grips.height_is_fraction) {
       picture.height_unit = vessel.height - vessel.base;
       picture.height_zero = vessel.base;

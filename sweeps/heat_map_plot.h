@@ -18,8 +18,9 @@ struct HeatMapPicture {
   std::string file;   // SVG
   std::string title;  // the vessel, as the reader knows it
   const HeatMap* map = nullptr;
-  double height_unit = 1;  // m per unit of the map's height axis
-  double height_zero = 0;  // m: the height where that axis is 0
+  double height_unit = 1;                         // m per unit of the map's height axis
+  double height_zero = 0;                         // m: the height where that axis is 0
+  std::string hollow = "only implausible grips";  // what a cell of feasible grips without a score has
 };
 
 // The pictures drawn, with one colour scale for all.

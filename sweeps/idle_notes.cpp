@@ -2,6 +2,7 @@
 #include "sweeps/idle_notes.h"
 
 #include "core/planes.h"
+#include "core/text.h"
 
 namespace wholehand {
 
@@ -9,6 +10,16 @@ std::string idle_strength_note(const Scene& scene) {
   if (!scene.strength || scene.strength->place.empty() || !scene.tilts.empty()) return "";
   return "note: [strength] changes nothing here, since the scene has no [tilts] at which an effort could be computed; add [tilts] "
          "with its deg, or leave [strength] out";
+}
+
+std::string unjudged_note(const Scene& scene, const Plan& plan) {
+  std::vector<std::string> missing;
+  if (!scene.table) missing.emplace_back("without [table] fingers may reach under the base");
+  if (!scene.strength) missing.emplace_back("without [strength] any hand is strong enough");
+  if (scene.tilts.empty()) missing.emplace_back("without [tilts] no force is judged");
+  if (plan.grips() == 1) missing.emplace_back("with one grip a vessel there is nothing to compare");
+  if (missing.empty()) return "";
+  return "not judged: " + joined(missing, "; ") + " (`wholehand new` writes a scene with all of them)\n";
 }
 
 std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::size_t best) {

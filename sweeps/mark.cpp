@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -26,7 +27,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int FORMAT = 5;
+constexpr int FORMAT = 6;
 
 Error unusable(const std::string& path, const std::string& why, const char* remedy = BEGIN_AGAIN) {
   return failure_error(fmt::format("{}: {}; {}", path, why, remedy));
@@ -75,8 +76,15 @@ json to_json(const VesselProgress& vessel) {
           {"through_table", counts.through_table},
           {"self_overlap", counts.self_overlap},
           {"only_deep", counts.only_deep},
+          {"not_held", counts.not_held},
+          {"least_bad", {counts.least_bad.effort, counts.least_bad.friction, counts.least_bad.grip}},
           {"heat_map", vessel.heat_map},
-          {"lists", lists}};  // NaN becomes null
+          {"lists", lists}};  // NaN and infinity become null
+}
+
+LeastBad least_bad_from(const json& text) {
+  const auto number = [](const json& value) { return value.is_null() ? LeastBad::ENDLESS : value.get<double>(); };
+  return {number(text.at(0)), number(text.at(1)), text.at(2)};
 }
 
 VesselProgress vessel_from(const json& text) {
@@ -95,6 +103,8 @@ VesselProgress vessel_from(const json& text) {
   counts.through_table = text.at("through_table");
   counts.self_overlap = text.at("self_overlap");
   counts.only_deep = text.at("only_deep");
+  counts.not_held = text.at("not_held");
+  counts.least_bad = least_bad_from(text.at("least_bad"));
   for (const json& cell : text.at("heat_map")) {
     vessel.heat_map.push_back(cell.is_null() ? std::numeric_limits<double>::quiet_NaN() : cell.get<double>());
   }
@@ -129,6 +139,8 @@ GripCounts& GripCounts::operator+=(const GripCounts& other) {
   through_table += other.through_table;
   self_overlap += other.self_overlap;
   only_deep += other.only_deep;
+  not_held += other.not_held;
+  least_bad = std::min(least_bad, other.least_bad);
   return *this;
 }
 
@@ -201,6 +213,11 @@ std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds
                                    {counts.self_overlap, "with fingers in each other"},
                                    {counts.only_deep, "only deep"}})
     if (part > counts.implausible) return fmt::format("{} implausible grips and {} {}", counts.implausible, part, what);
+  if (counts.implausible > counts.by_reason[0] || counts.not_held > counts.plausible())
+    return fmt::format("{} feasible grips, {} implausible and {} not held", counts.by_reason[0], counts.implausible,
+                       counts.not_held);
+  if (counts.least_bad.is_known() && counts.least_bad.grip >= vessel.done)
+    return fmt::format("grip {} is nearest to holding of {}", counts.least_bad.grip, vessel.done);
   if (vessel.best.size() > bounds.best) return fmt::format("{} best grips are kept of {}", vessel.best.size(), bounds.best);
   for (const Candidate& candidate : vessel.best) {
     if (candidate.index >= vessel.done)

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,6 +19,17 @@
 
 namespace wholehand {
 
+// The plausible grip that is nearest to holding: the least worst effort, then the least friction needed, then the first grip.
+struct LeastBad {
+  static constexpr double ENDLESS = std::numeric_limits<double>::infinity();
+
+  double effort = ENDLESS, friction = ENDLESS;  // infinite where they are not known, too
+  std::uint64_t grip = std::numeric_limits<std::uint64_t>::max();
+
+  auto operator<=>(const LeastBad&) const = default;
+  bool is_known() const { return grip != LeastBad().grip; }
+};
+
 // Counts over the grips of one vessel.
 struct GripCounts {
   std::uint64_t grips = 0;
@@ -28,7 +41,11 @@ struct GripCounts {
   // were not told apart.
   std::uint64_t through_table = 0, self_overlap = 0;
   std::uint64_t only_deep = 0;  // deep in the vessel, and neither of the two
+  std::uint64_t not_held = 0;   // of the plausible
+  LeastBad least_bad;           // not known where worst efforts are not kept
 
+  std::uint64_t plausible() const { return by_reason[0] - implausible; }
+  bool none_holds() const { return not_held > 0 && not_held == plausible(); }
   GripCounts& operator+=(const GripCounts& other);
 };
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -19,6 +20,7 @@
 #include "core/text.h"
 #include "shaders/layout.h"
 #include "sweeps/list_chooser.h"
+#include "sweeps/robust.h"
 
 namespace wholehand {
 namespace {
@@ -104,6 +106,7 @@ class Scores {
   }
 
   // Whether the weights are those of the sweep.
+  const std::array<double, 6>& weights() const { return weights_; }
   bool is_sweeps_own() const { return weights_ == effective_weights(scene_); }
 
   void read(std::size_t vessel, std::uint64_t first, std::size_t count, double* out) {
@@ -232,9 +235,9 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
     best[i].phalanx_depth = phalanx[i];
     best[i].palm_depth = palm[i];
     best[i].antipodal = antipodal[i] != 0;
+    best[i].grip = plan.grip(vessel, grips[i]);
     set_worst(best[i], scene, last, [&](int field, int plane) { return of_states.at(field)[static_cast<std::size_t>(plane)][i]; });
   }
-  for (std::size_t i = 0; i < best.size(); ++i) best[i].grip = plan.grip(vessel, grips[i]);
   return best;
 }
 
@@ -264,34 +267,90 @@ void set_robust(const SweepResult& result, const Plan& plan, std::size_t list, s
   for (std::size_t rank = 0; rank < robust.size(); ++rank)
     for (BestGrip& grip : grips)
       if (grip.candidate.index == listed[rank].index) {
-        grip.robust_mean = robust[rank][0];
-        grip.robust_low = robust[rank][1];
+        grip.robust = robust[rank];
       }
 }
 
-// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass.
-void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, Scores& scores,
-                 const Where* where, ListChooser& chooser, Ranking* counted) {
-  const Variable& plausible = *result.find("plausible");
+// Whether no grip of the list holds.
+bool none_holds(const Ranking& ranking, std::size_t list) {
+  return ranking.not_held[list] > 0 && ranking.not_held[list] == ranking.plausible[list];
+}
+
+// What the lists are in the order of, of a block of grips: the larger, the better.
+class RankKeys {
+ public:
+  RankKeys(const SweepResult& result, Scores& scores, RankBy by) : result_(result), scores_(scores) {
+    if (by == RankBy::worst_effort) variable_ = needed(result, {"worst_effort"})[0];
+    if (by == RankBy::push) variable_ = needed(result, {"push"})[0];
+    sign_ = by == RankBy::worst_effort ? -1 : 1;
+  }
+
+  void read(std::size_t vessel, std::uint64_t first, std::size_t count, double* out) {
+    if (!variable_) return scores_.read(vessel, first, count, out);
+    result_.read(*variable_, vessel, 0, first, count, out);
+    for (std::size_t i = 0; i < count; ++i) out[i] *= sign_;
+  }
+
+  Scores& scores() { return scores_; }
+
+ private:
+  const SweepResult& result_;
+  Scores& scores_;
+  const Variable* variable_ = nullptr;  // null: the score
+  double sign_ = 1;
+};
+
+// The scene with these weights, as kernels take them; and by what a score of theirs is multiplied to be one of read_weights.
+Scene with_weights(const Scene& scene, const std::array<double, 6>& weights, double& factor) {
+  Scene other = scene;
+  other.score = {weights[0], weights[1], weights[2], weights[3], weights[4], weights[5]};
+  factor = scene.tilts.empty() ? weights[0] + weights[1] + weights[2] + weights[3] : 1;
+  return other;
+}
+
+// Ranks candidates by the core's robust scores.
+void rank_by_robust(const Scene& scene, const Plan& plan, const std::array<double, 6>& weights, std::size_t best,
+                    std::vector<std::vector<BestGrip>>& lists) {
+  double factor = 1;
+  const Scene weighted = with_weights(scene, weights, factor);
+  const OpenBackend open = [](const Scene& other, const FieldSet& fields) {
+    return std::make_unique<CoreBackend>(make_core_evaluator(other), other, fields, Precision::full, 0);
+  };
+  rank_robustly(open, weighted, plan, best, nullptr, lists);
+  for (auto& list : lists)
+    for (BestGrip& grip : list) {
+      grip.robust.mean *= factor;
+      grip.robust.low *= factor;
+    }
+}
+
+// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass. `least_bad`: those of lists of which none
+// holds, instead of those that hold.
+void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, RankKeys& keys,
+                 bool least_bad, const Where* where, ListChooser& chooser, Ranking& ranking, bool is_first_pass) {
+  const Variable &plausible = *result.find("plausible"), *not_held = result.find("not_held");
   const std::vector<WhereValue> none;
   ConditionValues values(result, scene, plan, where ? where->values() : none);
   const std::size_t scales = plan.hand_scales();
-  std::vector<double> is_plausible(GRIPS_AT_ONCE), score(GRIPS_AT_ONCE);
+  std::vector<double> is_plausible(GRIPS_AT_ONCE), fails(GRIPS_AT_ONCE, 0), score(GRIPS_AT_ONCE);
   std::vector<std::size_t> hands(GRIPS_AT_ONCE);
   std::vector<Candidate> offered;
   for (std::uint64_t first = 0; first < plan.grips(); first += GRIPS_AT_ONCE) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(GRIPS_AT_ONCE, plan.grips() - first));
     result.read(plausible, vessel, 0, first, count, is_plausible.data());
-    scores.read(vessel, first, count, score.data());
+    if (has_effort(scene)) result.read(*not_held, vessel, 0, first, count, fails.data());
+    keys.read(vessel, first, count, score.data());
     plan.hand_scales_of(first, count, hands.data());
     values.read(vessel, first, count);
     offered.clear();
     for (std::size_t i = 0; i < count; ++i) {
       if (is_plausible[i] != 1) continue;  // infeasible ones have none
       const std::size_t list = vessel * scales + hands[i];
-      if (counted) ++counted->plausible[list];
+      if (is_first_pass) ++ranking.plausible[list];
+      if (is_first_pass && fails[i] == 1) ++ranking.not_held[list];
+      if (least_bad ? !none_holds(ranking, list) : fails[i] == 1) continue;
       if (where && !where->holds(values.row(i))) continue;
-      if (counted) ++counted->matching[list];
+      if (is_first_pass) ++ranking.matching[list];
       offered.push_back({score[i], first + i});
     }
     chooser.offer(offered);
@@ -300,17 +359,30 @@ void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan
 
 // The lists of a vessel, and how many grips they are of.
 std::vector<ListProgress> rank_vessel(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel,
-                                      Scores& scores, const Where* where, const RankRequest& request, const Evaluator* core,
+                                      RankKeys& keys, const Where* where, const RankRequest& request, const Evaluator* core,
                                       Ranking& ranking) {
-  const std::size_t pool = request.pool > 0 ? request.pool : usual_pool(plan, request.best, request.apart);
-  ListChooser chooser(plan, core, vessel, {request.best, request.apart, pool, 0});
-  Ranking* counted = &ranking;
-  do {
-    offer_grips(result, scene, plan, vessel, scores, where, chooser, counted);
-    chooser.end_pass();
-    counted = nullptr;
-  } while (!chooser.is_complete());
-  return chooser.progress();
+  const auto choose = [&](RankKeys& order, std::size_t best, bool least_bad) {
+    const std::size_t pool = request.pool > 0 ? request.pool : usual_pool(plan, best, request.apart);
+    ListChooser chooser(plan, core, vessel, {best, request.apart, pool, 0});
+    bool is_first_pass = !least_bad;
+    do {
+      offer_grips(result, scene, plan, vessel, order, least_bad, where, chooser, ranking, is_first_pass);
+      chooser.end_pass();
+      is_first_pass = false;
+    } while (!chooser.is_complete());
+    return chooser.progress();
+  };
+  std::vector<ListProgress> lists =
+      choose(keys, request.by == RankBy::robust ? robust_candidates(scene, request.best) : request.best, false);
+  const std::size_t first = vessel * plan.hand_scales();
+  bool is_unheld = false;
+  for (std::size_t k = 0; k < lists.size(); ++k) is_unheld = is_unheld || none_holds(ranking, first + k);
+  if (!request.least_bad || !is_unheld) return lists;
+  RankKeys efforts(result, keys.scores(), RankBy::worst_effort);
+  const std::vector<ListProgress> least_bad = choose(efforts, request.best, true);
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    if (none_holds(ranking, first + k)) lists[k] = least_bad[k];
+  return lists;
 }
 
 }  // namespace
@@ -345,6 +417,27 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene) 
   return weights;
 }
 
+void check_rank_by(const std::string& text) {
+  for (const char* known : {"", "score", "robust", "worst_effort", "push"})
+    if (text == known) return;
+  throw usage_error(fmt::format("--rank-by '{}'; allowed: score, robust, worst_effort or push", text.substr(0, 60)));
+}
+
+RankBy read_rank_by(const std::string& text, const Scene& scene) {
+  check_rank_by(text);
+  if (text.empty()) return scene.robust ? RankBy::robust : RankBy::score;
+  if (text == "score") return RankBy::score;
+  const bool needs_effort = text == "worst_effort" || text == "push";
+  if (text == "robust" && !scene.robust)
+    throw usage_error(
+        "--rank-by robust needs [robust], which the scene of this file does not have; allowed: score, worst_effort or push");
+  if (needs_effort && !has_effort(scene))
+    throw usage_error(
+        fmt::format("--rank-by {} needs [strength] and [tilts], which the scene of this file does not have; allowed: score{}", text,
+                    scene.robust ? " or robust" : ""));
+  return text == "robust" ? RankBy::robust : text == "push" ? RankBy::push : RankBy::worst_effort;
+}
+
 std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan) {
   std::vector<WhereName> names;
   const auto catalogue = variable_catalogue();
@@ -372,16 +465,22 @@ std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene
 
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core) {
-  needed(result, {"plausible"});
+  needed(result, has_effort(scene) ? std::vector<std::string>{"plausible", "not_held"} : std::vector<std::string>{"plausible"});
+  if (request.least_bad && !has_effort(scene))
+    throw usage_error("--least-bad: needs [strength] and [tilts], which the scene of this file does not have");
+  if (request.least_bad) needed(result, {"worst_effort"});
   Scores scores(result, scene, request.weights);
+  RankKeys keys(result, scores, request.by);
   const std::vector<WhereName> names = where_names(result, scene, plan);
   const std::unique_ptr<const Where> where = request.where.empty() ? nullptr : std::make_unique<Where>(request.where, names);
   const std::size_t scales = plan.hand_scales(), lists = scene.vessels.size() * scales;
-  Ranking ranking{{}, std::vector<std::uint64_t>(lists, 0), std::vector<std::uint64_t>(lists, 0), ""};
-  const std::shared_ptr<const Evaluator> posing = request.apart > 0 ? open_core() : nullptr;
+  const std::vector<std::uint64_t> none(lists, 0);
+  Ranking ranking{{}, none, none, none, ""};
+  const bool is_robust = request.by == RankBy::robust;
+  const std::shared_ptr<const Evaluator> posing = request.apart > 0 || is_robust ? open_core() : nullptr;
   std::vector<ListProgress> best;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v)
-    for (ListProgress& list : rank_vessel(result, scene, plan, v, scores, where.get(), request, posing.get(), ranking))
+    for (ListProgress& list : rank_vessel(result, scene, plan, v, keys, where.get(), request, posing.get(), ranking))
       best.push_back(std::move(list));
   const auto rows = row_variables(scene);
   const bool is_whole = std::all_of(rows.begin(), rows.end(), [&](const std::string& name) { return result.find(name); });
@@ -392,18 +491,34 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
     ranking.note =
         "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
   }
+  std::vector<std::vector<BestGrip>> places(lists);
+  for (std::size_t list = 0; list < lists; ++list)
+    for (const Candidate& candidate : best[list].chosen) places[list].push_back(bare_grip(plan, list / scales, candidate));
+  if (is_robust) {
+    std::vector<std::vector<BestGrip>> held = places;  // those that do not hold stay in the order of their efforts
+    for (std::size_t list = 0; list < lists; ++list)
+      if (none_holds(ranking, list)) held[list].clear();
+    rank_by_robust(scene, plan, scores.weights(), request.best, held);
+    for (std::size_t list = 0; list < lists; ++list)
+      if (!none_holds(ranking, list)) places[list] = std::move(held[list]);
+  }
   for (std::size_t list = 0; list < lists; ++list) {
-    const std::vector<Candidate>& chosen = best[list].chosen;
+    std::vector<Candidate> chosen;
+    for (const BestGrip& grip : places[list]) {
+      chosen.push_back(grip.candidate);
+      scores.read(list / scales, grip.candidate.index, 1, &chosen.back().score);
+    }
     auto grips =
         is_whole ? read_rows(result, scene, plan, list / scales, chosen) : evaluate_best(*core, scene, plan, list / scales, chosen);
     for (std::size_t i = 0; i < grips.size(); ++i) {
       grips[i].candidate = chosen[i];
-      grips[i].score = chosen[i].score;
+      grips[i].score = none_holds(ranking, list) ? 0 : chosen[i].score;
       grips[i].rank = i + 1;
+      grips[i].robust = places[list][i].robust;
     }
     if (scores.is_sweeps_own()) {
       set_refined(result, plan, list, grips);
-      set_robust(result, plan, list, grips);
+      if (!is_robust) set_robust(result, plan, list, grips);
     }
     ranking.lists.push_back(std::move(grips));
   }

@@ -24,24 +24,37 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene);
 // What a condition may name: every variable of the catalogue, and the axes. Whatever the file lacks is there with the reason.
 std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan);
 
+// By what a list is ranked: the largest score, the largest robust scores (sweeps/robust.h), the least worst_effort, or the largest push.
+enum class RankBy { score, robust, worst_effort, push };
+
+// From "score", "robust", "worst_effort" or "push"; empty: "robust" in a scene with [robust], else "score". Throws Error (usage), also
+// for what the scene does not have.
+RankBy read_rank_by(const std::string& text, const Scene& scene);
+// The same before a scene is known: throws for a text that is none of these.
+void check_rank_by(const std::string& text);
+
 struct RankRequest {
   std::string weights;             // as of read_weights; empty: the sweep's own scores
   std::vector<std::string> where;  // conditions, all of which a grip meets
   std::size_t best = 0;            // grips a list at most
   double apart = 0;                // m, that some joint of the hand moves from one listed grip to any other (sweeps/list_chooser.h)
   std::size_t pool = 0;            // grips of a list that one pass keeps; 0: usual_pool
+  bool least_bad = false;          // where no grip of a list holds: the plausible ones, by their worst effort
+  RankBy by = RankBy::score;
 };
 
 struct Ranking {
   std::vector<std::vector<BestGrip>> lists;  // as of GripLists, the best first
-  std::vector<std::uint64_t> matching;       // grips of each list that are feasible, plausible and meet the condition,
-  std::vector<std::uint64_t> plausible;      // of so many that are feasible and plausible
+  std::vector<std::uint64_t> matching;       // grips of each list that are eligible and meet the condition,
+  std::vector<std::uint64_t> plausible;      // of so many that are feasible and plausible,
+  std::vector<std::uint64_t> not_held;       // less these
   std::string note;                          // for the user: what is not from the file; empty: everything is
 };
 
 // Goes through the file in blocks, as often as ListChooser needs, so that memory does not depend on the number of grips. Only
-// feasible, plausible grips are listed, by score, then by their number, as a sweep lists them; with the sweep's own weights the
-// scores are the file's. What else is told of them is the file's or, where that lacks some of it, the core's. Throws Error (usage):
+// eligible grips (shaders/status.h) are listed, by what is asked for, then by their number, as a sweep lists them; robust scores are the core's.
+// With the sweep's own weights the scores are the file's, and grips that do not hold have 0 with any. All other numbers are the
+// file's or, where that lacks some of them, the core's. Throws Error (usage):
 // read_weights, Where, or values that the file lacks, with what to keep.
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core);

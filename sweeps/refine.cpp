@@ -8,14 +8,14 @@
 
 #include "core/parallel.h"
 #include "core/planes.h"
-#include "shaders/layout.h"
+#include "shaders/status.h"
 
 namespace wholehand {
 namespace {
 
 using Coordinates = std::array<double, REFINED_COORDINATES>;
 
-constexpr double SCORE_OF_NONE = -1;  // the score of one that is infeasible or implausible
+constexpr double SCORE_OF_NONE = -1;  // the score of one that is not eligible
 
 std::pair<double, double> half_way_to_neighbours(std::vector<double> values, double value) {
   std::sort(values.begin(), values.end());
@@ -38,8 +38,7 @@ class CoreScore {
   double operator()(std::size_t vessel, const GripInput& grip) {
     core_.planes(vessel, &grip, 1, fields_, 1, reals_.data(), uints_.data());
     const std::uint32_t status = uints_[static_cast<std::size_t>(fields_.plane[FIELD_STATUS])];
-    const bool is_plausible = (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE;
-    return is_plausible ? reals_[static_cast<std::size_t>(fields_.plane[FIELD_SCORE])] : SCORE_OF_NONE;
+    return is_eligible(status) ? reals_[static_cast<std::size_t>(fields_.plane[FIELD_SCORE])] : SCORE_OF_NONE;
   }
 
  private:

@@ -325,7 +325,7 @@ class SweepDefinition : ResultDefinition {
     };
     // without a value for missing ones, so that it opens as the whole number that an index is
     const int grip = define(BEST_GRIP, NC_INT64, "1", "best grips: index over all dimensions of the grips, the last one fastest");
-    text(grip, "comment", "-1 beyond the last feasible and plausible grip");
+    text(grip, "comment", "-1 beyond the last feasible, plausible grip that holds");
     fill_value(define(BEST_SCORE, NC_DOUBLE, "1", "best grips: score"), NC_DOUBLE);
     for (const PlanAxis& axis : contents_.plan.axes()) {
       const bool is_height = axis.axis == AXIS_HEIGHT;
@@ -344,7 +344,9 @@ class SweepDefinition : ResultDefinition {
     }
     if (!contents_.scene.robust) return;
     const std::string over = fmt::format("over {} random deviations by [robust]", contents_.scene.robust->count);
-    for (const auto& [name, what] : {std::pair{ROBUST_MEAN, "mean of the score "}, {ROBUST_LOW, "10th percentile of the score "}})
+    for (const auto& [name, what] : {std::pair{ROBUST_MEAN, "mean of the score "},
+                                     {ROBUST_LOW, "10th percentile of the score "},
+                                     {ROBUST_SHARE, "share that is feasible, plausible and held "}})
       fill_value(define(name, NC_DOUBLE, "1", "best grips: " + (what + over)), NC_DOUBLE);
   }
 

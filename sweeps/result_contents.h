@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/backend.h"
+#include "sweeps/best.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
 #include "sweeps/vessel_facts.h"
@@ -31,7 +32,7 @@ struct RankedGrip {
   GripInput grip;
   GripInput refined{};
   double refined_score = std::numeric_limits<double>::quiet_NaN();  // and then there is no refined grip
-  double robust_mean = refined_score, robust_low = refined_score;
+  RobustScore robust{};
 };
 
 // Dimensions of the grips: those of the plan's axes, or "point" for Sobol points.
@@ -49,6 +50,7 @@ std::string best_axis_name(const PlanAxis& axis);
 constexpr const char* REFINED_SCORE = "best_refined_score";
 constexpr const char* ROBUST_MEAN = "best_robust_mean";
 constexpr const char* ROBUST_LOW = "best_robust_low";
+constexpr const char* ROBUST_SHARE = "best_robust_share";
 std::string refined_axis_name(const PlanAxis& axis);
 bool is_refined_axis(const PlanAxis& axis);
 std::string best_scale_dimension(const Plan& plan);  // of the hand scales; Sobol points have a variable of the plain name

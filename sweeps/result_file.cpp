@@ -135,7 +135,7 @@ FilePlaces ResultFile::find_places() const {
       for (const PlanAxis& axis : axes)
         if (is_refined_axis(axis)) places.best.push_back(block_offset(file, refined_axis_name(axis)));
       if (contents_.scene.robust)
-        places.best.insert(places.best.end(), {block_offset(file, ROBUST_MEAN), block_offset(file, ROBUST_LOW)});
+        for (const char* name : {ROBUST_MEAN, ROBUST_LOW, ROBUST_SHARE}) places.best.push_back(block_offset(file, name));
     }
     return places;
   } catch (const Error& error) {
@@ -267,7 +267,9 @@ const ResultFile::Block* ResultFile::block_of(const char* variable) const {
   return nullptr;
 }
 
-bool ResultFile::has_eligible() const { return block_of("score") && block_of("plausible"); }
+bool ResultFile::has_eligible() const {
+  return block_of("score") && block_of("plausible") && (!has_effort(contents_.scene) || block_of("not_held"));
+}
 
 std::vector<Candidate> ResultFile::eligible(std::size_t vessel, std::uint64_t first, std::uint64_t last) const {
   // opened anew: a file system of a network shows what others wrote when a file is opened
@@ -291,7 +293,7 @@ std::vector<Candidate> ResultFile::eligible(std::size_t vessel, std::uint64_t fi
     }
   };
   const std::size_t count = last - first;
-  std::vector<std::int8_t> plausible(count);
+  std::vector<std::int8_t> plausible(count), not_held(count, 0);
   std::vector<float> floats;
   std::vector<double> doubles;
   const bool is_float = block_of("score")->size == sizeof(float);
@@ -303,10 +305,11 @@ std::vector<Candidate> ResultFile::eligible(std::size_t vessel, std::uint64_t fi
     read_block("score", doubles.data());
   }
   read_block("plausible", plausible.data());
+  if (block_of("not_held")) read_block("not_held", not_held.data());
   close(file);
   std::vector<Candidate> grips;
   for (std::size_t i = 0; i < count; ++i)
-    if (plausible[i] == 1) grips.push_back({is_float ? static_cast<double>(floats[i]) : doubles[i], first + i});
+    if (plausible[i] == 1 && not_held[i] == 0) grips.push_back({is_float ? static_cast<double>(floats[i]) : doubles[i], first + i});
   return grips;
 }
 
@@ -375,8 +378,9 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
       const auto values = axis_values(ranked.grip);
       for (std::size_t axis = 0; axis < values.size(); ++axis) reals[1 + axis][rank] = values[axis];
       if (contents_.scene.robust) {
-        reals[reals.size() - 2][rank] = ranked.robust_mean;
-        reals[reals.size() - 1][rank] = ranked.robust_low;
+        reals[reals.size() - 3][rank] = ranked.robust.mean;
+        reals[reals.size() - 2][rank] = ranked.robust.low;
+        reals[reals.size() - 1][rank] = ranked.robust.share;
       }
       if (std::isnan(ranked.refined_score)) continue;
       const auto refined = axis_values(ranked.refined);

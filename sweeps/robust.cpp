@@ -4,55 +4,209 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
 #include "core/normal.h"
 #include "core/planes.h"
 #include "core/sobol.h"
-#include "shaders/layout.h"
+#include "shaders/status.h"
 #include "statistics/interval.h"
 
 namespace wholehand {
 namespace {
 
-// What a candidate is evaluated as: grips of one vessel, `count` of each list entry, one after the other.
-struct RobustGrips {
-  std::vector<BestGrip*> best;
-  std::vector<std::vector<double>> scores;  // of each
+constexpr std::size_t PARTS = 8;  // of the deviations; those of one part have one friction
+static_assert(PARTS == FRICTION_LEVELS);
+
+// A grip that may get a place, and the scores at its deviations so far, in their order.
+struct Judged {
+  std::size_t list = 0;
+  BestGrip* grip = nullptr;
+  std::vector<double> scores;
+  std::size_t held = 0, parts = 0;
 };
 
-// False: stopped.
-bool evaluate(Backend& backend, std::size_t vessel, const std::vector<Deviation>& all, std::size_t first, std::size_t last,
-              const std::atomic<bool>* stop, const std::function<void()>& look, RobustGrips& grips) {
-  const std::size_t each = last - first;
-  RunRequest request;
-  request.vessel = vessel;
-  request.last = grips.best.size() * each;
-  request.stop = stop;
-  request.grips = [&](std::size_t, std::uint64_t from, std::size_t count, GripInput* out) {
-    for (std::size_t i = 0; i < count; ++i) out[i] = deviated(grips.best[(from + i) / each]->grip, all[first + (from + i) % each]);
-  };
-  const FieldSet& fields = backend.fields();
-  request.sink = [&](const PlaneChunk& chunk) {
-    for (std::size_t i = 0; i < chunk.count; ++i) {
-      const std::uint64_t at = chunk.first + i;
-      const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
-      const bool is_plausible = (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE;
-      grips.scores[at / each][first + at % each] = is_plausible ? chunk.real(fields.plane[FIELD_SCORE], i) : 0;
-    }
-    if (look) look();
-  };
-  const RunResult result = backend.run(request);
-  if (stop && *stop) return false;
-  if (result.done != request.last) {
-    throw failure_error(
-        fmt::format("{}: evaluated {} of the {} deviations of the best grips", backend.info().device, result.done, request.last));
+// Ranks before another: `low` and `mean` may be bounds.
+bool is_ahead(const RobustScore& a, const RobustScore& b) { return a.low != b.low ? a.low > b.low : a.mean > b.mean; }
+
+class RobustRanking {
+ public:
+  RobustRanking(const OpenBackend& open, const Scene& scene, const Plan& plan, std::size_t best, const std::atomic<bool>* stop,
+                std::vector<std::vector<BestGrip>>& lists, const std::function<void()>& look)
+      : open_(open),
+        scene_(scene),
+        plan_(plan),
+        best_(best),
+        places_(std::min(best, MOST_ROBUST)),
+        stop_(stop),
+        lists_(lists),
+        look_(look),
+        all_(deviations(*scene.robust)),
+        frictions_(robust_frictions(scene)),
+        backends_(frictions_.size()) {
+    const std::array<double, 6> weights = effective_weights(scene);
+    largest_score_ = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (std::size_t list = 0; list < lists.size(); ++list)
+      for (std::size_t i = 0; i < std::min(lists[list].size(), ROBUST_CANDIDATES * places_); ++i)
+        judged_.push_back({list, &lists[list][i], {}});
   }
-  return true;
-}
+
+  // False: stopped.
+  bool run() {
+    std::vector<Judged*> everyone;
+    for (Judged& one : judged_) everyone.push_back(&one);
+    if (!judge(everyone, 0)) return false;
+    // Those that look best so far first: they soon say what the others have to reach.
+    const std::vector<Judged*> likely = likely_ones();
+    for (std::size_t part = 1; part < PARTS; ++part)
+      if (!judge(likely, part)) return false;
+    for (std::size_t part = 1; part < PARTS; ++part)
+      if (!judge(open_ones(part), part)) return false;
+    return true;
+  }
+
+  void rank() {
+    std::vector<std::vector<BestGrip>> ranked(lists_.size());
+    for (const auto& ones : by_list(true)) {
+      if (ones.empty()) continue;
+      std::vector<BestGrip>& list = ranked[ones[0]->list];
+      for (std::size_t place = 0; place < std::min(places_, ones.size()); ++place) {
+        list.push_back(*ones[place]->grip);
+        list.back().robust = score_of(*ones[place]);
+      }
+    }
+    for (std::size_t list = 0; list < lists_.size(); ++list) {
+      std::set<std::uint64_t> placed;
+      for (const BestGrip& grip : ranked[list]) placed.insert(grip.candidate.index);
+      for (const BestGrip& grip : lists_[list])
+        if (ranked[list].size() < best_ && !placed.contains(grip.candidate.index)) ranked[list].push_back(grip);
+    }
+    lists_ = std::move(ranked);
+  }
+
+ private:
+  std::size_t first_of(std::size_t part) const { return part * all_.size() / PARTS; }
+  bool is_done(const Judged& one) const { return one.parts == PARTS; }
+
+  static RobustScore score_of(const Judged& one) { return robust_score(one.scores, one.held); }
+
+  // What a grip has at most once all of its deviations are known.
+  RobustScore most_of(const Judged& one) const {
+    const double sum = std::accumulate(one.scores.begin(), one.scores.end(), 0.0), count = static_cast<double>(all_.size());
+    const double unknown = count - static_cast<double>(one.scores.size());
+    RobustScore most;
+    most.low = largest_low(one.scores, all_.size());
+    most.mean = (sum + unknown * largest_score_) / count * (1 + 1e-12);  // whatever the sum rounds to
+    return most;
+  }
+
+  // The grips of each list in the order of their scores so far; of equal ones as they were. `whole`: only those whose deviations are all known.
+  std::vector<std::vector<Judged*>> by_list(bool whole) {
+    std::vector<std::vector<Judged*>> of(lists_.size());
+    for (Judged& one : judged_)
+      if (!whole || is_done(one)) of[one.list].push_back(&one);
+    for (auto& ones : of) {
+      std::vector<std::pair<RobustScore, Judged*>> scored;
+      for (Judged* one : ones) scored.emplace_back(score_of(*one), one);
+      std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return is_ahead(a.first, b.first); });
+      for (std::size_t i = 0; i < ones.size(); ++i) ones[i] = scored[i].second;
+    }
+    return of;
+  }
+
+  std::vector<Judged*> likely_ones() {
+    std::vector<Judged*> likely;
+    for (const auto& ones : by_list(false)) {
+      const std::size_t count = std::min(places_, ones.size());
+      likely.insert(likely.end(), ones.begin(), ones.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    return likely;
+  }
+
+  // Those at whose turn this part is, and that may still get ahead of the last whole grip with a place.
+  std::vector<Judged*> open_ones(std::size_t part) {
+    const std::vector<std::vector<Judged*>> whole = by_list(true);
+    std::vector<Judged*> open;
+    for (Judged& one : judged_) {
+      if (one.parts != part) continue;
+      const std::vector<Judged*>& ahead = whole[one.list];
+      if (ahead.size() < places_ || !is_ahead(score_of(*ahead[places_ - 1]), most_of(one))) open.push_back(&one);
+    }
+    return open;
+  }
+
+  Backend& backend(std::size_t part) {
+    std::unique_ptr<Backend>& opened = backends_[part * frictions_.size() / PARTS];
+    if (!opened) {
+      Scene other = scene_;
+      other.force.friction = frictions_[part * frictions_.size() / PARTS];
+      opened = open_(other, make_field_set({FIELD_SCORE, FIELD_STATUS}, other));
+    }
+    return *opened;
+  }
+
+  bool judge(const std::vector<Judged*>& ones, std::size_t part) {
+    for (std::size_t vessel = 0; vessel < scene_.vessels.size(); ++vessel) {
+      std::vector<Judged*> own;
+      for (Judged* one : ones)
+        if (one->list / plan_.hand_scales() == vessel) own.push_back(one);
+      if (!own.empty() && !evaluate(vessel, own, part)) return false;
+    }
+    return true;
+  }
+
+  bool evaluate(std::size_t vessel, const std::vector<Judged*>& ones, std::size_t part) {
+    if (stop_ && *stop_) return false;
+    const std::size_t first = first_of(part), each = first_of(part + 1) - first;
+    Backend& used = backend(part);
+    const FieldSet& fields = used.fields();
+    RunRequest request;
+    request.vessel = vessel;
+    request.last = ones.size() * each;
+    request.stop = stop_;
+    request.grips = [&](std::size_t, std::uint64_t from, std::size_t count, GripInput* out) {
+      for (std::size_t i = 0; i < count; ++i)
+        out[i] = deviated(ones[(from + i) / each]->grip->grip, all_[first + (from + i) % each]);
+    };
+    request.sink = [&](const PlaneChunk& chunk) {  // in ascending order
+      for (std::size_t i = 0; i < chunk.count; ++i) {
+        Judged& one = *ones[(chunk.first + i) / each];
+        const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
+        const bool is_held = is_eligible(status);
+        one.scores.push_back(is_held ? chunk.real(fields.plane[FIELD_SCORE], i) : 0);
+        one.held += is_held ? 1 : 0;
+      }
+      if (look_) look_();
+    };
+    const RunResult result = used.run(request);
+    if (stop_ && *stop_) return false;
+    if (result.done != request.last) {
+      throw failure_error(
+          fmt::format("{}: evaluated {} of the {} deviations of the best grips", used.info().device, result.done, request.last));
+    }
+    for (Judged* one : ones) one->parts = part + 1;
+    return true;
+  }
+
+  const OpenBackend& open_;
+  const Scene& scene_;
+  const Plan& plan_;
+  std::size_t best_, places_;
+  const std::atomic<bool>* stop_;
+  std::vector<std::vector<BestGrip>>& lists_;
+  const std::function<void()>& look_;
+  std::vector<Deviation> all_;
+  std::vector<double> frictions_;
+  std::vector<std::unique_ptr<Backend>> backends_;  // of each friction, once it is needed
+  double largest_score_ = 0;
+  std::vector<Judged> judged_;
+};
 
 }  // namespace
 
@@ -105,49 +259,36 @@ GripInput deviated(const GripInput& grip, const Deviation& deviation) {
   return moved;
 }
 
-RobustScore robust_score(std::vector<double> scores) {
+RobustScore robust_score(std::vector<double> scores, std::size_t held) {
   std::sort(scores.begin(), scores.end());
   // about the least one, so that equal scores have this score as their mean
   const double sum =
       std::accumulate(scores.begin(), scores.end(), 0.0, [&](double all, double score) { return all + (score - scores[0]); });
-  return {scores[0] + sum / static_cast<double>(scores.size()), percentile_of(scores, 0.1)};
+  return {scores[0] + sum / static_cast<double>(scores.size()), percentile_of(scores, 0.1),
+          static_cast<double>(held) / static_cast<double>(scores.size())};
 }
 
-bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, const std::atomic<bool>* stop,
-                       std::vector<std::vector<BestGrip>>& lists, const std::function<void()>& look) {
+double largest_low(std::vector<double> known, std::size_t count) {
+  const double place = 0.1 * static_cast<double>(count - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t needed = std::min(below + 2, count);
+  if (known.size() < needed) return std::numeric_limits<double>::infinity();
+  std::sort(known.begin(), known.end());
+  // what is not known may be as large as it likes
+  known.resize(std::max(count, known.size()), known.back());
+  return percentile_of(known, 0.1);
+}
+
+std::size_t robust_candidates(const Scene& scene, std::size_t best) {
+  return scene.robust ? std::max(best, ROBUST_CANDIDATES * std::min(best, MOST_ROBUST)) : best;
+}
+
+bool rank_robustly(const OpenBackend& open, const Scene& scene, const Plan& plan, std::size_t best, const std::atomic<bool>* stop,
+                   std::vector<std::vector<BestGrip>>& lists, const std::function<void()>& look) {
   if (!scene.robust) return true;
-  const std::vector<Deviation> all = deviations(*scene.robust);
-  std::vector<RobustGrips> vessels(scene.vessels.size());
-  for (std::size_t list = 0; list < lists.size(); ++list) {
-    RobustGrips& grips = vessels[list / plan.hand_scales()];
-    for (std::size_t rank = 0; rank < std::min(lists[list].size(), MOST_ROBUST); ++rank) {
-      grips.best.push_back(&lists[list][rank]);
-      grips.scores.emplace_back(all.size());
-    }
-  }
-  if (std::all_of(vessels.begin(), vessels.end(), [](const RobustGrips& grips) { return grips.best.empty(); })) return true;
-  const std::vector<double> frictions = robust_frictions(scene);
-  // Not the sweep's own, at any friction: what a sweep keeps may change the last bits of a device's scores, and this
-  // keeps the same.
-  std::unique_ptr<Backend> backend;
-  for (std::size_t level = 0; level < frictions.size(); ++level) {
-    Scene other = scene;
-    other.force.friction = frictions[level];
-    if (stop && *stop) return false;
-    if (!backend || !backend->use_friction_of(other)) {
-      backend.reset();  // before the next one is opened: never two at once
-      backend = open(other, make_field_set({FIELD_SCORE, FIELD_STATUS}, other));
-    }
-    const std::size_t first = level * all.size() / frictions.size(), last = (level + 1) * all.size() / frictions.size();
-    for (std::size_t v = 0; v < vessels.size(); ++v)
-      if (!vessels[v].best.empty() && !evaluate(*backend, v, all, first, last, stop, look, vessels[v])) return false;
-  }
-  for (RobustGrips& grips : vessels)
-    for (std::size_t i = 0; i < grips.best.size(); ++i) {
-      const RobustScore score = robust_score(grips.scores[i]);
-      grips.best[i]->robust_mean = score.mean;
-      grips.best[i]->robust_low = score.low;
-    }
+  RobustRanking ranking(open, scene, plan, best, stop, lists, look);
+  if (!ranking.run()) return false;
+  ranking.rank();
   return true;
 }
 

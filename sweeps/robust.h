@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a grip scores when a person does not grip exactly where the plan says: its score over random deviations of the grip, of the friction
-// and of the hand's size.
+// and of the hand's size. Lists are ranked by it.
 #pragma once
 
 #include <atomic>
@@ -16,9 +16,10 @@
 
 namespace wholehand {
 
-constexpr int FRICTION_LEVELS = 8;         // values that a friction with a deviation takes, all equally likely
-constexpr double LEAST_HAND_FACTOR = 0.1;  // of the hand's size, however large its deviation
-constexpr std::size_t MOST_ROBUST = 100;   // grips of a list, from the best one on
+constexpr int FRICTION_LEVELS = 8;            // values that a friction with a deviation takes, all equally likely
+constexpr double LEAST_HAND_FACTOR = 0.1;     // of the hand's size, however large its deviation
+constexpr std::size_t MOST_ROBUST = 100;      // places of a list that robust scores decide
+constexpr std::size_t ROBUST_CANDIDATES = 8;  // grips that are judged for each of these places
 
 // One deviation: what is added to a grip's coordinates (m, rad), and by what its hand scale is multiplied.
 struct Deviation {
@@ -37,21 +38,26 @@ std::vector<double> robust_frictions(const Scene& scene);
 // with its other sign. Angles of many turns lose them, since devices take sines of up to 16 rad.
 GripInput deviated(const GripInput& grip, const Deviation& deviation);
 
-// Mean and 10th percentile of scores. Of n scores in ascending order, from number 0 on, the percentile lies at 0.1 (n - 1), between two of
-// them linearly.
-struct RobustScore {
-  double mean = 0, low = 0;
-};
-RobustScore robust_score(std::vector<double> scores);
+// The percentile of n ascending scores, counted from 0, lies at 0.1 (n - 1), between two of them linearly. `held` counts the scores of eligible
+// grips (shaders/status.h).
+RobustScore robust_score(std::vector<double> scores, std::size_t held);
 
-// Opens what evaluates grips of a scene that differs from the sweep's in its friction alone. Called once where that takes on another
-// friction itself (Backend::use_friction_of), and otherwise once for each.
+// The largest 10th percentile that `count` scores can have, of which these are some; infinite where too few are known.
+double largest_low(std::vector<double> known, std::size_t count);
+
+// How many grips a list keeps, so that robust scores choose `best` of them. `best` in a scene without [robust].
+std::size_t robust_candidates(const Scene& scene, std::size_t best);
+
+// Opens what evaluates grips of a scene that differs from the sweep's in its friction alone.
 using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
 
-// Sets the robust scores of the first MOST_ROBUST grips of each list, in a scene that asks for them; else nothing. A deviation that is
-// infeasible or implausible scores 0. The same bits however many grips the backend takes at once. `stop` may be null; false: it was
-// set, and no list has changed. `look` is called after each chunk and may set it. Throws Error (failure) where the backend delivers fewer.
-bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, const std::atomic<bool>* stop,
-                       std::vector<std::vector<BestGrip>>& lists, const std::function<void()>& look = {});
+// In a scene with [robust], ranks each list by the 10th percentile of its grips, then by their mean, then as it was: the first min(best, MOST_ROBUST) places, for each of
+// which the first ROBUST_CANDIDATES grips of the list are judged. The grips on these places get their robust scores. What follows keeps its
+// order, and the list ends with `best` grips. A deviation that is not eligible scores 0. A grip whose deviations so far
+// leave it no place is not judged further, which changes no list. The same bits however many grips the backend takes at once. `stop` may
+// be null; false: it was set, and no list has changed. `look` is called after each chunk and may set it. Throws Error (failure)
+// where the backend delivers fewer.
+bool rank_robustly(const OpenBackend& open, const Scene& scene, const Plan& plan, std::size_t best, const std::atomic<bool>* stop,
+                   std::vector<std::vector<BestGrip>>& lists, const std::function<void()>& look = {});
 
 }  // namespace wholehand

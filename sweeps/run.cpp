@@ -30,17 +30,17 @@ ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   AutoBackend chosen(scene, own);
   own.choice_explained = chosen.explanation();
   own.took = [&](const SweepTimes& times, std::uint64_t grips, const BackendInfo& info) { chosen.remember(times, grips, info); };
-  const auto open = [&](const Scene& of, const FieldSet& fields) {
+  const auto open = [&](const FieldSet& fields) {
     const Precision usual = own.on == "core" ? Precision::full : Precision::single;
-    return open_backend(of, fields, own.on, own.precision.value_or(usual), own.threads);
+    return open_backend(scene, fields, own.on, own.precision.value_or(usual), own.threads);
   };
   // by itself, so that a note comes before meshes that take long
   const auto device_bytes = [&] { return chosen.or_on_core([&] { return largest_buffer(own.on); }); };
   const SweepParts parts{
-      [&](const FieldSet& fields) { return chosen.or_on_core([&] { return open(scene, fields); }); },
+      [&](const FieldSet& fields) { return chosen.or_on_core([&] { return open(fields); }); },
       [&] { return make_core_evaluator(scene); },
       [&] { chosen.or_on_core([&] { read_meshes(scene, own, device_bytes); }); },
-      open,
+      [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, "core", Precision::full, own.threads); },
   };
   return run_sweep(scene, own, parts);
 }

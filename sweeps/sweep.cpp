@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/printable.h"
 #include "sweeps/best.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/closing.h"
@@ -21,6 +22,7 @@
 #include "sweeps/resume.h"
 #include "sweeps/robust.h"
 #include "sweeps/tally.h"
+#include "sweeps/unheld.h"
 #include "sweeps/write_companions.h"
 #include "system/clock.h"
 #include "system/output.h"
@@ -108,7 +110,7 @@ ExitCode Sweep::run() {
   end(file, [&] {
     BestLists best = find_best();
     is_whole = complete(best, interrupt);
-    if (is_whole) return finish(file, best);
+    if (is_whole) return finish(file, std::move(best));
     save(file);
   });
   return is_whole ? ExitCode::done : interrupted();
@@ -131,7 +133,7 @@ void Sweep::say_opening() const {
   for (const std::string& line : cavity_notes(scene_)) note(line);
   for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) note(line);
   const std::string choice = options_.choice.empty() ? "" : options_.choice + "\n";
-  print_text(opening_lines(scene_, plan(), info_) + choice + vessel_lines(scene_, facts_));
+  print_text(opening_lines(scene_, plan(), info_) + choice + vessel_lines(scene_, facts_) + unjudged_note(scene_, plan()));
   if (!options_.explain) return;
   print_text(options_.choice_explained);
   print_text(explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
@@ -149,10 +151,11 @@ ResultContents Sweep::contents() const { return {scene_, plan(), variables_, fac
 bool Sweep::is_choosy() const { return best_wanted_ > 0 && scene_.output.apart > 0; }
 bool Sweep::refines() const { return best_wanted_ > 0 && options_.refine; }
 std::size_t Sweep::pool() const {
-  return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan(), best_wanted_, scene_.output.apart);
+  return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan(), candidates(), scene_.output.apart);
 }
-std::size_t Sweep::kept_best() const { return is_choosy() ? pool() : best_wanted_; }
-ListRequest Sweep::list_request() const { return {best_wanted_, scene_.output.apart, pool(), options_.threads}; }
+std::size_t Sweep::candidates() const { return robust_candidates(scene_, best_wanted_); }
+std::size_t Sweep::kept_best() const { return is_choosy() ? pool() : candidates(); }
+ListRequest Sweep::list_request() const { return {candidates(), scene_.output.apart, pool(), options_.threads}; }
 bool Sweep::ranks_here() const { return best_wanted_ > 0 && (is_choosy() || plan().hand_scales() > 1); }
 // What is read back: a device chooses a few of the best of all hands together. Of several hand scales, and where grips have to
 // differ, the scores are chosen from here.
@@ -160,6 +163,8 @@ std::vector<int> Sweep::swept_fields() const {
   const std::vector<int> kept = variable_fields(variables_);
   std::set<int> fields(kept.begin(), kept.end());
   if (ranks_here()) fields.insert({FIELD_SCORE, FIELD_STATUS});
+  // where no grip holds, the sweep reports the one that is nearest to it
+  if (best_wanted_ > 0 && has_effort(scene_)) fields.insert({FIELD_STATUS, FIELD_WORST_EFFORT});
   return {fields.begin(), fields.end()};
 }
 
@@ -191,9 +196,9 @@ MarkBounds Sweep::bounds() const {
   const bool has_stretches = !variables_.empty();
   return {scene_.vessels.size(),
           plan().grips(),
-          std::max(best_wanted_, kept_best()) * plan().hand_scales(),
+          std::max(candidates(), kept_best()) * plan().hand_scales(),
           is_choosy() ? plan().hand_scales() : 0,
-          best_wanted_,
+          candidates(),
           has_stretches,
           has_stretches && has_field(FIELD_STATUS)};
 }
@@ -330,7 +335,7 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   request.first = vessel.done;
   request.last = plan().grips();
   HandLists best(plan(), kept_best(), vessel.best);
-  request.best = ranks_here() ? 0 : best_wanted_;
+  request.best = ranks_here() ? 0 : candidates();
   std::vector<Candidate> eligible;
   request.sink = [&](const PlaneChunk& chunk) {
     const double start = monotonic_now();
@@ -486,7 +491,17 @@ CompanionRequest Sweep::companions() const {
   return {scene_, plan(), names_, parts_, best_wanted_, options_.glb, [this](const std::string& line) { note(line); }};
 }
 
-BestLists Sweep::find_best() { return best_grips(companions(), mark_.vessels, *backend_); }
+BestLists Sweep::find_best() const {
+  BestLists lists;
+  for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+    const HandLists kept(plan(), candidates(), mark_.vessels[v].best);
+    for (std::size_t s = 0; s < plan().hand_scales(); ++s) {
+      std::vector<BestGrip>& list = lists.emplace_back();
+      for (const Candidate& candidate : kept.sorted(s)) list.push_back(bare_grip(plan(), v, candidate));
+    }
+  }
+  return lists;
+}
 
 void Sweep::end(ResultFile& file, const std::function<void()>& ending) {
   try {
@@ -507,15 +522,30 @@ bool Sweep::complete(BestLists& best, InterruptGuard& interrupt) const {
     if (is_asked_to_end(interrupt)) interrupt.flag() = true;
     return interrupt.flag().load();
   };
-  if (refines() && !refine_lists(*evaluator_, scene_, plan(), options_.threads, best, look)) return false;
-  return add_robust_scores(parts_.open_other, scene_, plan(), &interrupt.flag(), best, look);
+  if (best_wanted_ > 0 && !rank_robustly(parts_.open_other, scene_, plan(), best_wanted_, &interrupt.flag(), best, look))
+    return false;
+  return !refines() || refine_lists(*evaluator_, scene_, plan(), options_.threads, best, look);
 }
 
-void Sweep::finish(ResultFile& file, const BestLists& best) {
+// What there is to say where no grip of a vessel holds.
+std::string Sweep::unheld(std::size_t v) const {
+  const GripCounts& counts = mark_.vessels[v].counts;
+  if (!counts.none_holds() || !counts.least_bad.is_known()) return "";
+  const std::shared_ptr<const Evaluator> core = parts_.open_evaluator();
+  // what `rank` needs
+  int kept = 0;
+  for (const Variable* variable : variables_)
+    for (const std::string_view name : {"plausible", "not_held", "worst_effort"}) kept += variable->name == name ? 1 : 0;
+  return fmt::format("{}: {}{}", scene_.vessels[v].name, unheld_line(*core, scene_, plan(), v, counts.least_bad),
+                     kept == 3 ? fmt::format("; `wholehand rank {} --least-bad` lists such grips", one_line(names_.result)) : "");
+}
+
+void Sweep::finish(ResultFile& file, BestLists best) {
+  describe_best(companions(), *backend_, best);
   std::vector<std::vector<RankedGrip>> ranked(best.size());
   for (std::size_t list = 0; list < best.size(); ++list) {
     for (const BestGrip& grip : best[list])
-      ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
+      ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust});
   }
   file.check_own();
   // the result's own name comes last: when it is there, all is
@@ -531,6 +561,7 @@ void Sweep::finish(ResultFile& file, const BestLists& best) {
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const std::string counts = counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan().copies());
     print_text(fmt::format("\n{}: {}\n{}", scene_.vessels[v].name, counts, best_lines(scene_, plan(), v, best, names_.best)));
+    if (const std::string line = unheld(v); !line.empty()) is_quiet() ? note(line) : print_text(line + "\n");
   }
   // kernels that ran while the file was being written cost no time of their own
   const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};

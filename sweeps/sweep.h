@@ -70,11 +70,11 @@ class Sweep {
   ExitCode interrupted() const;
   // Does what follows the last grip. Where that fails the mark has all grips, as far as it can be written.
   void end(ResultFile& file, const std::function<void()>& ending);
-  // What is told of the grips of each list; what takes longer: refined grips and robust scores, false where that was interrupted; and the
-  // files, once all is known.
-  BestLists find_best();
+  // The places of the grips of each list; which of them are listed in the end, and their refined grips and robust scores, false where that was
+  // interrupted; and the files, once all is known.
+  BestLists find_best() const;
   bool complete(BestLists& best, InterruptGuard& interrupt) const;
-  void finish(ResultFile& file, const BestLists& best);
+  void finish(ResultFile& file, BestLists best);
 
   const Plan& plan() const { return *plan_; }
   ResultContents contents() const;
@@ -82,6 +82,7 @@ class Sweep {
   std::map<std::string, std::string> identity() const;
   bool is_choosy() const;                       // whether the best grips have to differ
   bool refines() const;                         // whether better grips are looked for near the best ones
+  std::size_t candidates() const;               // grips of a list of which the best are chosen in the end
   std::size_t pool() const;                     // grips of a list that one pass keeps
   std::size_t kept_best() const;                // grips of a list that are kept until all grips are there
   bool ranks_here() const;                      // whether the best are found from scores that are read back, and not by the backend
@@ -122,6 +123,7 @@ class Sweep {
   CompanionRequest companions() const;
   std::vector<int> swept_fields() const;
   bool has_score() const;
+  std::string unheld(std::size_t vessel) const;
   MarkBounds bounds() const;
   void announce_check() const;
   bool repair(ResultFile& file, InterruptGuard& interrupt);

@@ -221,22 +221,24 @@ std::vector<std::optional<RefinedGrip>> SweepResult::refined(std::size_t vessel,
   return refined;
 }
 
-std::vector<std::array<double, 2>> SweepResult::robust(std::size_t vessel, std::size_t hand_scale) const {
+std::vector<RobustScore> SweepResult::robust(std::size_t vessel, std::size_t hand_scale) const {
   const std::vector<Candidate> listed = best(vessel, hand_scale);
   if (listed.empty() || !scene_->robust) return {};
   std::vector<std::size_t> lists{vessel};
   if (plan_->hand_scales() > 1) lists.push_back(hand_scale);
   const std::size_t length = ranks(lists.size() + 1);
-  const std::vector<double> means = row(ROBUST_MEAN, lists, length), lows = row(ROBUST_LOW, lists, length);
-  std::vector<std::array<double, 2>> robust;
+  const std::vector<double> means = row(ROBUST_MEAN, lists, length), lows = row(ROBUST_LOW, lists, length),
+                            shares = row(ROBUST_SHARE, lists, length);
+  std::vector<RobustScore> robust;
   for (std::size_t rank = 0; rank < listed.size(); ++rank) {
-    const bool has_scores = means[rank] >= 0 && lows[rank] >= 0 && std::isfinite(means[rank]) && std::isfinite(lows[rank]);
-    const bool has_none = std::isnan(means[rank]) && std::isnan(lows[rank]);
+    const std::array<double, 3> all{means[rank], lows[rank], shares[rank]};
+    const bool has_scores = std::all_of(all.begin(), all.end(), [](double value) { return value >= 0 && std::isfinite(value); });
+    const bool has_none = std::all_of(all.begin(), all.end(), [](double value) { return std::isnan(value); });
     if (rank < MOST_ROBUST ? !has_scores : !has_none)
-      throw usage_error(fmt::format("{}: {} and {} of rank {} are {} and {}; allowed: {}", path(), ROBUST_MEAN, ROBUST_LOW,
-                                    rank + 1, means[rank], lows[rank],
+      throw usage_error(fmt::format("{}: {}, {} and {} of rank {} are {}, {} and {}; allowed: {}", path(), ROBUST_MEAN, ROBUST_LOW,
+                                    ROBUST_SHARE, rank + 1, means[rank], lows[rank], shares[rank],
                                     rank < MOST_ROBUST ? "numbers from 0 on" : "no numbers (NaN)"));
-    robust.push_back({means[rank], lows[rank]});
+    robust.push_back({means[rank], lows[rank], shares[rank]});
   }
   return robust;
 }

@@ -13,6 +13,7 @@
 
 #include "core/backend.h"
 #include "core/result.h"
+#include "sweeps/best.h"
 #include "sweeps/guarded_file.h"
 #include "sweeps/plan.h"
 #include "sweeps/result_checksums.h"
@@ -81,9 +82,8 @@ class SweepResult {
   // Where the sweep refined the grips of best(), in their order; nothing where it did not, as before there were such.
   std::vector<std::optional<RefinedGrip>> refined(std::size_t vessel, std::size_t hand_scale = 0) const;
 
-  // Mean and 10th percentile of the robust score of the grips of best(), in their order; nothing in a scene without [robust]. NaN where a
-  // grip has none.
-  std::vector<std::array<double, 2>> robust(std::size_t vessel, std::size_t hand_scale = 0) const;
+  // The robust scores of the grips of best(), in their order; nothing in a scene without [robust]. NaN where a grip has none.
+  std::vector<RobustScore> robust(std::size_t vessel, std::size_t hand_scale = 0) const;
 
   // The tilts at which a vessel starts to pour, one for each of the scene's fills, rad; NaN where it never does.
   std::vector<double> pouring_tilts(std::size_t vessel) const;

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/result.h"
-#include "shaders/layout.h"
+#include "shaders/status.h"
 #include "sweeps/variables.h"
 #include "system/readable.h"
 
@@ -13,6 +15,9 @@ namespace wholehand {
 void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& counts) {
   counts.grips += chunk.count;
   if (!is_kept(fields, FIELD_STATUS)) return;
+  const auto known = [&](int field, std::size_t i) {
+    return is_kept(fields, field) ? chunk.real(fields.plane[field], i) : LeastBad::ENDLESS;
+  };
   for (std::size_t i = 0; i < chunk.count; ++i) {
     const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
     const std::uint32_t reason = status & STATUS_REASON_MASK;
@@ -23,6 +28,11 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& co
       counts.through_table += (status & STATUS_THROUGH_TABLE) != 0;
       counts.self_overlap += (status & STATUS_SELF_OVERLAP) != 0;
       counts.only_deep += (status & (STATUS_THROUGH_TABLE | STATUS_SELF_OVERLAP)) == 0;
+    }
+    counts.not_held += (status & STATUS_NOT_HELD) != 0;
+    if (is_plausible(status) && is_kept(fields, FIELD_WORST_EFFORT)) {
+      const LeastBad one{known(FIELD_WORST_EFFORT, i), known(FIELD_FRICTION_NEEDED, i), chunk.first + i};
+      counts.least_bad = std::min(counts.least_bad, one);
     }
     counts.antipodal += (status & STATUS_ANTIPODAL) != 0;
     counts.blocked += ((status >> STATUS_BLOCKED_SHIFT) & 0x1F) != 0;
@@ -58,8 +68,9 @@ std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint6
   }
   if (!reasons.empty()) line += " (" + reasons + ")";
   if (counts.by_reason[0] == 0) return line;
-  line += fmt::format("; of these {} implausible{}, {} antipodal", readable_number(counts.implausible), implausible_parts(counts),
-                      readable_number(counts.antipodal));
+  line += fmt::format("; of these {} implausible{}", readable_number(counts.implausible), implausible_parts(counts));
+  if (counts.not_held > 0) line += fmt::format(", {} not held", readable_number(counts.not_held));
+  line += fmt::format(", {} antipodal", readable_number(counts.antipodal));
   if (counts.blocked > 0) line += fmt::format(", {} with a blocked finger", readable_number(counts.blocked));
   return line;
 }

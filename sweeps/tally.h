@@ -11,7 +11,7 @@ namespace wholehand {
 void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& counts);
 
 // "5,321 of 9,216 grips feasible (3,000 too wide, 895 misses); of these 310 implausible (200 through the table, 30
-// with fingers in each other, 90 only too deep), 4,100 antipodal, 12 with a blocked finger". The parts are there
+// with fingers in each other, 90 only too deep), 2,180 not held, 4,100 antipodal, 12 with a blocked finger". The parts are there
 // where they are known.
 // `reasons_known`: whether the status was kept; `azimuths`: how many azimuths each grip stands for.
 std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths);

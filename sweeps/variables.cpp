@@ -22,6 +22,7 @@ std::int32_t word_itself(std::uint32_t word) { return static_cast<std::int32_t>(
 std::int32_t bits_set(std::uint32_t word) { return std::popcount(word); }
 std::int32_t reason(std::uint32_t status) { return static_cast<std::int32_t>(status & STATUS_REASON_MASK); }
 std::int32_t plausible(std::uint32_t status) { return (status & STATUS_PLAUSIBLE) != 0; }
+std::int32_t not_held(std::uint32_t status) { return (status & STATUS_NOT_HELD) != 0; }
 std::int32_t antipodal(std::uint32_t status) { return (status & STATUS_ANTIPODAL) != 0; }
 std::int32_t through_table(std::uint32_t status) { return (status & STATUS_THROUGH_TABLE) != 0; }
 std::int32_t self_overlap(std::uint32_t status) { return (status & STATUS_SELF_OVERLAP) != 0; }
@@ -150,6 +151,12 @@ std::vector<Variable> make_catalogue() {
           byte("plausible",
                "whether the hand is nowhere deeper than the depth limit, in the vessel or a finger in another, and above the table",
                YES_NO, FIELD_STATUS, plausible),
+      });
+  add(all, DEFAULT, Need::strength,
+      {byte("not_held", "whether a plausible grip takes more than the hand's strength: its worst effort is above 1", YES_NO,
+            FIELD_STATUS, not_held)});
+  add(all, DEFAULT, Need::nothing,
+      {
           byte("antipodal", "whether both contact angles lie within the friction cone", YES_NO, FIELD_STATUS, antipodal),
           of_field(FIELD_CLOSURE),
           of_field(FIELD_GAP),

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "core/planes.h"
 #include "sweeps/best_glb.h"
 #include "sweeps/companions.h"
 #include "sweeps/grip_lists.h"
-#include "sweeps/hand_lists.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/variables.h"
 #include "system/version.h"
@@ -32,21 +32,26 @@ std::vector<std::string> draw_companion_maps(const CompanionRequest& request, co
 
 }  // namespace
 
-std::vector<std::vector<BestGrip>> best_grips(const CompanionRequest& request, const std::vector<VesselProgress>& vessels,
-                                              Backend& swept) {
+void describe_best(const CompanionRequest& request, Backend& swept, std::vector<std::vector<BestGrip>>& lists) {
   const std::vector<int> needed = best_fields(request.scene);
-  const bool any = std::any_of(vessels.begin(), vessels.end(), [](const VesselProgress& v) { return !v.best.empty(); });
+  const bool any = std::any_of(lists.begin(), lists.end(), [](const auto& list) { return !list.empty(); });
   std::unique_ptr<Backend> other;
   if (any && !std::all_of(needed.begin(), needed.end(), [&](int field) { return is_kept(swept.fields(), field); })) {
     other = request.parts.open_backend(make_field_set(needed, request.scene));
   }
-  std::vector<std::vector<BestGrip>> best;
-  for (std::size_t v = 0; v < request.scene.vessels.size(); ++v) {
-    const HandLists lists(request.plan, request.best, vessels[v].best);
-    for (std::size_t s = 0; s < request.plan.hand_scales(); ++s)
-      best.push_back(evaluate_best(other ? *other : swept, request.scene, request.plan, v, lists.sorted(s)));
+  for (std::size_t list = 0; list < lists.size(); ++list) {
+    std::vector<Candidate> candidates;
+    for (const BestGrip& grip : lists[list]) candidates.push_back(grip.candidate);
+    std::vector<BestGrip> described =
+        evaluate_best(other ? *other : swept, request.scene, request.plan, list / request.plan.hand_scales(), candidates);
+    for (std::size_t i = 0; i < described.size(); ++i) {
+      const BestGrip& known = lists[list][i];
+      described[i].refined = known.refined;
+      described[i].refined_score = known.refined_score;
+      described[i].robust = known.robust;
+    }
+    lists[list] = std::move(described);
   }
-  return best;
 }
 
 std::vector<std::string> write_companions(const CompanionRequest& request, const std::vector<std::vector<BestGrip>>& best,

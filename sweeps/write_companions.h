@@ -27,9 +27,9 @@ struct CompanionRequest {
   std::function<void(const std::string&)> note;  // takes what else there is to say, a line each
 };
 
-// The best grips of each list with what is told of them; by a backend of their own where the sweep's does not read all of it back.
-std::vector<std::vector<BestGrip>> best_grips(const CompanionRequest& request, const std::vector<VesselProgress>& vessels,
-                                              Backend& swept);
+// Sets whatever is known of the grips of each list beside their places, refinements and robust scores; by a backend of their own where the
+// sweep's does not read all of it back.
+void describe_best(const CompanionRequest& request, Backend& swept, std::vector<std::vector<BestGrip>>& lists);
 
 // Answers the names of the files, as the closing lines have them. `maps` null: the score is not kept, and there are none. `info`: the
 // sweep's.

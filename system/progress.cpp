@@ -8,11 +8,14 @@
 #include <cstdio>
 
 #include "core/printable.h"
+#include "system/output.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
 
-constexpr double LOG_PERIOD = 10;  // s
+constexpr double LOG_PERIOD = 10;       // s
+constexpr double LONG_UNANNOUNCED = 5;  // s
 
 std::string rate_text(double rate, const char* noun) {
   if (rate >= 1e6) return fmt::format("{:.2f} million {}/s", rate * 1e-6, noun);
@@ -28,6 +31,10 @@ std::string time_text(double seconds) {
 }
 
 }  // namespace
+
+void announce_time(const std::string& what, double seconds) {
+  if (seconds >= LONG_UNANNOUNCED) say_note(what + " takes about " + readable_duration(seconds));
+}
 
 ProgressSink progress_sink(ProgressSink otherwise) { return isatty(STDERR_FILENO) == 1 ? ProgressSink::terminal : otherwise; }
 

@@ -12,6 +12,9 @@ namespace wholehand {
 // Shows a line on stderr over the last one, where that is a terminal; "" wipes it. For work that is not counted.
 void show_status(const std::string& line);
 
+// Announces how long work takes that is not shown by a Progress yet, where that is 5 s or more: "WHAT takes about 51 s".
+void announce_time(const std::string& what, double seconds);
+
 enum class ProgressSink {
   none,
   terminal,  // one line that is drawn over, after half a second

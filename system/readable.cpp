@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace wholehand {
+
+constexpr double LARGEST_GROUPED = 1e15;  // above it whole numbers are no longer exact to people
 
 namespace {
 
@@ -49,7 +52,10 @@ std::string fixed_text(double value, int digits) {
 }
 
 std::string plain_text(double value, int digits) {
-  return std::isnan(value) ? "-" : grouped(fmt::format("{:.{}g}", value == 0 ? 0 : value, digits));
+  if (std::isnan(value)) return "-";
+  const std::string text = fmt::format("{:.{}g}", value == 0 ? 0 : value, digits);
+  if (text.find("e+") == std::string::npos || std::abs(value) >= LARGEST_GROUPED) return grouped(text);
+  return grouped(fmt::format("{:.0f}", std::strtod(text.c_str(), nullptr)));  // no exponent where people read sizes
 }
 
 std::string range_text(double value, bool is_end) { return plain_text(value) + (is_end && !std::isnan(value) ? "+" : ""); }

@@ -41,7 +41,7 @@ GraspContacts grasp_contacts(const Scene& scene, const Evaluator& evaluator, std
     contacts.joints.push_back(found.joint);
     contacts.between.push_back(found.between);
   }
-  contacts.strength = core_f64::load_strength(scene, contacts.points);
+  contacts.strength = core_f64::load_strength(scene, result);
   return contacts;
 }
 

@@ -79,7 +79,7 @@ GripPrediction TrialPredictor::predict(std::size_t vessel, const GripInput& grip
     held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit, found.is_tip});
     if (found.is_tip) held.tips.push_back(held.contacts.back());
   }
-  held.hand = core_f64::load_strength(scene_, held.tips);
+  held.hand = core_f64::load_strength(scene_, held.result);
   GripPrediction prediction;
   prediction.worst_effort = prediction.tips_worst_effort = NO_VALUE;
   for (std::size_t k = 0; k < cases.size(); ++k) {

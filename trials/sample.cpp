@@ -10,8 +10,7 @@
 #include "core/core_backend.h"
 #include "core/error.h"
 #include "core/random_bits.h"
-#include "shaders/layout.h"
-#include "sweeps/hand_lists.h"
+#include "shaders/status.h"
 #include "sweeps/list_chooser.h"
 #include "system/output.h"
 #include "system/progress.h"
@@ -97,11 +96,11 @@ std::vector<std::uint64_t> looked_at(std::uint64_t grips, std::size_t most, std:
   return numbers;
 }
 
-std::vector<Candidate> eligible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
-                                        std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop) {
+std::vector<Candidate> plausible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
+                                         std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop) {
   const std::vector<std::uint64_t> numbers = looked_at(plan.grips(), options.most_looked, vessel, options.seed);
   CoreBackend backend(std::move(core), scene, make_field_set({FIELD_SCORE, FIELD_STATUS}, scene), Precision::full, options.threads);
-  std::vector<Candidate> eligible;
+  std::vector<Candidate> plausible;
   Progress progress(numbers.size(), 0);
   RunRequest request;
   request.vessel = vessel;
@@ -111,32 +110,35 @@ std::vector<Candidate> eligible_by_core(const Scene& scene, const Plan& plan, st
     for (std::size_t k = 0; k < count; ++k) out[k] = plan.grip(v, numbers[static_cast<std::size_t>(first) + k]);
   };
   request.sink = [&](const PlaneChunk& chunk) {
-    add_eligible(chunk, backend.fields(), eligible);
+    for (std::size_t i = 0; i < chunk.count; ++i)
+      if (is_plausible(chunk.uint(backend.fields().plane[FIELD_STATUS], i)))
+        plausible.push_back({chunk.real(backend.fields().plane[FIELD_SCORE], i), chunk.first + i});
     progress.update("scores of " + scene.vessels[vessel].name, chunk.first + chunk.count);
   };
   backend.run(request);
   if (stop) return {};
-  for (Candidate& one : eligible) one.index = numbers[static_cast<std::size_t>(one.index)];
-  return eligible;
+  for (Candidate& one : plausible) one.index = numbers[static_cast<std::size_t>(one.index)];
+  return plausible;
 }
 
-std::vector<Candidate> eligible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
-                                          const TrialOptions& options) {
-  const Variable& score = *result.find("score");
+std::vector<Candidate> plausible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
+                                           const TrialOptions& options) {
+  const Variable &score = *result.find("score"), *plausible = result.find("plausible");
   const std::vector<std::uint64_t> numbers = looked_at(plan.grips(), options.most_looked, vessel, options.seed);
-  std::vector<Candidate> eligible;
-  std::vector<double> scores(READ_AT_ONCE);
+  std::vector<Candidate> found;
+  std::vector<double> scores(READ_AT_ONCE), is_plausible(READ_AT_ONCE, 0);
   std::size_t next = 0;
   for (std::uint64_t first = 0; first < plan.grips() && next < numbers.size(); first += READ_AT_ONCE) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(READ_AT_ONCE, plan.grips() - first));
     if (numbers[next] >= first + count) continue;
     result.read(score, vessel, 0, first, count, scores.data());
+    if (plausible) result.read(*plausible, vessel, 0, first, count, is_plausible.data());
     for (; next < numbers.size() && numbers[next] < first + count; ++next) {
-      const double value = scores[static_cast<std::size_t>(numbers[next] - first)];
-      if (value > 0) eligible.push_back({value, numbers[next]});  // an infeasible or implausible grip scores 0
+      const auto at = static_cast<std::size_t>(numbers[next] - first);
+      if (scores[at] > 0 || is_plausible[at] == 1) found.push_back({scores[at], numbers[next]});
     }
   }
-  return eligible;
+  return found;
 }
 
 PartedByDepth parted_by_depth(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core, std::size_t vessel,
@@ -173,11 +175,13 @@ std::vector<Candidate> sample_of_parts(const PartedByDepth& parts, std::size_t c
 }
 
 std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
-                                      const std::vector<Candidate>& eligible, const TrialOptions& options) {
+                                      const std::vector<Candidate>& plausible, const TrialOptions& options) {
   const double apart = scene.output.apart;
   ListChooser chooser(plan, &core, vessel, {options.best, apart, usual_pool(plan, options.best, apart), options.threads});
+  std::vector<Candidate> held = plausible;
+  if (has_effort(scene)) std::erase_if(held, [](const Candidate& one) { return !(one.score > 0); });  // 0: it does not hold
   while (!chooser.is_complete()) {
-    chooser.offer(eligible);
+    chooser.offer(held);
     chooser.end_pass();
   }
   return chooser.chosen();
@@ -199,19 +203,19 @@ std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, cons
   std::vector<TrialGrip> grips;
   for (std::size_t k = 0; k < vessels.size() && !stop; ++k) {
     const std::size_t v = vessels[k];
-    std::vector<Candidate> eligible = has_scores ? eligible_in_result(*source.result, source.plan, v, options)
-                                                 : eligible_by_core(source.scene, source.plan, source.core, v, options, stop);
+    std::vector<Candidate> plausible = has_scores ? plausible_in_result(*source.result, source.plan, v, options)
+                                                  : plausible_by_core(source.scene, source.plan, source.core, v, options, stop);
     const std::vector<Candidate> best = has_lists ? listed_best(*source.result, source.plan, v, options.best)
-                                                  : best_different(source.scene, source.plan, *source.core, v, eligible, options);
+                                                  : best_different(source.scene, source.plan, *source.core, v, plausible, options);
     const auto add = [&](const Candidate& one, TrialSample sample) {
       grips.push_back({v, one.index, source.plan.grip(v, one.index), sample, one.score});
     };
     for (const Candidate& one : best) add(one, TrialSample::best);
-    std::erase_if(eligible, [&](const Candidate& one) {
+    std::erase_if(plausible, [&](const Candidate& one) {
       return std::any_of(best.begin(), best.end(), [&](const Candidate& listed) { return listed.index == one.index; });
     });
     const std::size_t share = options.grips / vessels.size() + (k < options.grips % vessels.size() ? 1 : 0);
-    const PartedByDepth parts = parted_by_depth(source.scene, source.plan, source.core, v, eligible, options, stop);
+    const PartedByDepth parts = parted_by_depth(source.scene, source.plan, source.core, v, plausible, options, stop);
     for (const Candidate& one : sample_of_parts(parts, share, v, options.seed)) add(one, TrialSample::stratified);
   }
   if (stop) return {};

@@ -40,11 +40,12 @@ std::vector<Candidate> stratified_sample(const std::vector<Candidate>& eligible,
 std::vector<std::uint64_t> looked_at(std::uint64_t grips, std::size_t most, std::size_t vessel, std::uint64_t seed);
 
 // Feasible, plausible grips of a vessel with their scores, of those that are looked at: by the core in double precision, so that
-// every machine has the same ones, or of a result. Empty where `stop` is set.
-std::vector<Candidate> eligible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
-                                        std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop);
-std::vector<Candidate> eligible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
-                                          const TrialOptions& options);
+// every machine has the same ones, or of a result. Those that do not hold are tried too, with a score of 0; a result without `plausible`
+// has only the others. Empty where `stop` is set.
+std::vector<Candidate> plausible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
+                                         std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop);
+std::vector<Candidate> plausible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
+                                           const TrialOptions& options);
 
 // Of a stratified sample, as many grips begin too deep in the vessel to be tried.
 constexpr std::size_t DEEP_ONE_OF = 5;
@@ -60,9 +61,9 @@ PartedByDepth parted_by_depth(const Scene& scene, const Plan& plan, std::shared_
 // the share of discarded grips does not hang on how much the score gives for depth.
 std::vector<Candidate> sample_of_parts(const PartedByDepth& parts, std::size_t count, std::size_t vessel, std::uint64_t seed);
 
-// The best different ones of eligible grips, as a sweep lists them, of all hand scales.
+// The best different ones of plausible grips, as a sweep lists them, of all hand scales: of those that hold.
 std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
-                                      const std::vector<Candidate>& eligible, const TrialOptions& options);
+                                      const std::vector<Candidate>& plausible, const TrialOptions& options);
 
 // A result may have found its grips in single precision: those go that are not feasible and plausible by the core. How many.
 std::size_t remove_impossible(const Evaluator& core, std::vector<TrialGrip>& grips);

@@ -121,7 +121,9 @@ class Wholehand {
     check(wh_grip_evaluate(scene_, vessel_of(in), &grip, &result));
     values::Made made;
     made.set("reason", values::of(std::string(result.reason))).set("feasible", values::of(result.is_feasible != 0));
-    made.set("plausible", values::of(result.is_plausible != 0)).set("closure", values::of(result.closure));
+    made.set("plausible", values::of(result.is_plausible != 0))
+        .set("not_held", values::of(result.is_not_held != 0))
+        .set("closure", values::of(result.closure));
     made.set("gap", values::of(result.gap)).set("score", values::of(result.score));
     made.set("touch_mask", values::of(static_cast<int>(result.touch_mask)));
     made.set("joints", values::places(result.posed, WH_JOINTS));

@@ -104,7 +104,8 @@ public unsafe struct GripResult {
   public UIntPtr Size;
   public IntPtr Reason;
   public int IsFeasible, IsPlausible, IsAntipodal, IsGrazing, OverlapsItself, IsThroughTable;
-  public uint TouchMask, UsedMask, TipMask, FingerMask, InnerMask, Reserved;
+  public uint TouchMask, UsedMask, TipMask, FingerMask, InnerMask;
+  public int IsNotHeld;
   public double Closure, Gap, ThumbAngle, IndexAngle;
   public fixed double Midpoint[3];
   public fixed double Joints[3 * Native.Joints];

@@ -181,10 +181,10 @@ typedef struct wh_grip_result {
   uint32_t touch_mask; /* bit j: joint j touches */
   uint32_t used_mask;  /* bit f: finger f has a touching joint */
   uint32_t tip_mask, finger_mask,
-      inner_mask; /* bit j: joint j was brought to the glass, by its role: a tip, of a finger that did not touch, another */
-  uint32_t reserved;
-  double closure;                   /* of the hand: 0 open, 1 closed */
-  double gap;                       /* between the tips of thumb and index finger */
+      inner_mask;      /* bit j: joint j was brought to the glass, by its role: a tip, of a finger that did not touch, another */
+  int32_t is_not_held; /* plausible, and holding takes more than all of the hand's strength; 0 without [strength] */
+  double closure;      /* of the hand: 0 open, 1 closed */
+  double gap;          /* between the tips of thumb and index finger */
   double thumb_angle, index_angle;  /* between outward normal and thumb-index line */
   double midpoint[3];               /* of the two tips, vessel frame */
   double joints[WH_JOINTS][3];      /* of the rigged hand, vessel frame; NaN where the grip is not feasible, as all below */
@@ -192,7 +192,7 @@ typedef struct wh_grip_result {
   double proxies[WH_JOINTS][3];     /* of these, moved out of the glass: to be drawn */
   double separation[WH_JOINTS];     /* of the posed joint's sphere from the glass; below 0: inside */
   double phalanx_depth, palm_depth; /* the deepest of fingers and palm in the glass, at least 0 */
-  double score;                     /* 0 to 1; 0 where the grip is not feasible or not plausible */
+  double score;                     /* 0 to 1; 0 where the grip is not feasible, not plausible or not held */
   double score_terms[6];            /* fingers, contacts, depth, posture, force, hold */
 } wh_grip_result;
 

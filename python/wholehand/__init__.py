@@ -27,7 +27,7 @@ from ._core import version as _version
 from ._errors import Error, Note
 from ._evaluate import evaluate, grip_dtype as _grip_dtype, grips_of as grips
 from ._grip import Drawing, Grip, grip
-from ._scene import Scene, Variable, scene, scenes
+from ._scene import Scene, Variable, new, scene, scenes
 from ._session import Hand, Session, Step, session
 from ._sweep import sweep
 
@@ -55,6 +55,7 @@ __all__ = [
     "evaluate",
     "grip",
     "grips",
+    "new",
     "scene",
     "scenes",
     "session",

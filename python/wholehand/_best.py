@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _AXES = ("azimuth", "obliquity", "roll", "offset", "hand_scale", "height", "height_fraction", "point")
+_ROBUST = ("robust_low", "robust_mean", "robust_share")
 _BEST_WHERE_NONE = 20  # as the program, where neither scene nor sweep lists any
 
 
@@ -50,6 +51,12 @@ class _Chooser:
         coordinate = self.data[name]
         along = tuple(places[self.dims.index(str(dim))] for dim in coordinate.dims)
         return np.array(np.broadcast_to(coordinate.values[along], places[0].shape), dtype=np.float64)
+
+    def rank_robustly(self, vessel: str, places: tuple[Any, ...], count: int) -> tuple[tuple[Any, ...], dict[str, list[float]]]:
+        """Those of the candidates' places that are listed, in their order, and their robust scores."""
+        columns = [self.column(name, places) for name in _core.GRIP_COLUMNS]
+        order, *scores = _core.rank_by_robust_scores(self.scene._core, self.scene._core.find_vessel(vessel), columns, count)
+        return tuple(at[order] for at in places), dict(zip(_ROBUST, scores))
 
     def choose(self, vessel: str, scores: npt.NDArray[Any], eligible: npt.NDArray[np.bool_], count: int) -> tuple[Any, ...]:
         """The places of the chosen grips along the dimensions."""
@@ -123,13 +130,14 @@ def best(
     n: int | None = None,
     apart_mm: float | None = None,
     *,
-    by: str | xr.DataArray = "score",
+    by: str | xr.DataArray | None = None,
     where: xr.DataArray | None = None,
+    least_bad: bool = False,
 ) -> xr.Dataset:
     """The best grips of every vessel that differ from one another, as ``wholehand rank`` lists them.
 
-    The feasible, plausible grips of a vessel are gone through from the best to the worst, of equal ones in the order of the sweep.
-    A grip is taken where some joint of the posed hand is more than ``apart_mm`` from the same joint of every hand before. Where a
+    The feasible, plausible grips of a vessel are taken from the best to the worst, equal ones in the order of the sweep.
+    In a scene with [strength] those are left out that do not hold (``not_held``). A grip is taken where some joint of the posed hand is more than ``apart_mm`` from the same joint of every hand before. Where a
     sweep has several hand scales, each has a list.
 
     Parameters
@@ -141,22 +149,26 @@ def best(
     apart_mm : float, optional
         Default: the scene's [output] apart_mm. 0: any two grips differ.
     by : str or DataArray
-        What is largest for the best grip: a variable, or your own score over (vessel and) the dimensions of the grips. NaN: left
-        out.
+        "robust": the robust scores of a scene with [robust], which the core finds here; the default there. "worst_effort": the
+        least. Else what is largest for the best grip: a variable (the default is "score"), or your own score over (vessel and) the
+        dimensions of the grips. NaN: left out.
     where : DataArray of bool, optional
         Only grips where this holds.
+    least_bad : bool, optional
+        Where no grip of a list holds: the grips of the least worst effort instead of none, whatever ``by`` says.
 
     Returns
     -------
     xarray.Dataset
         Along ``grip``: every variable of the grips, and as coordinates the vessel, the rank in its list (from 1), and where it is:
-        height (m), azimuth, obliquity, roll (rad), offset (m), hand_scale. ``wh.grips(...)`` makes an array for ``wh.evaluate`` of
-        it, and ``wh.grip(scene, vessel, at=found.isel(grip=0))`` shows one.
+        height (m), azimuth, obliquity, roll (rad), offset (m), hand_scale. Where the dataset has ``worst_effort``, there is also
+        ``held_margin``, which is 1 / worst effort. ``wh.grips(...)`` makes an array for ``wh.evaluate`` of
+        it, and ``wh.grip(scene, vessel, at=found.isel(grip=0))`` shows one. By "robust": robust_low, robust_mean, robust_share too.
 
     Raises
     ------
     Error
-        A dataset without scene, reason, plausible or score; ``by`` or ``where`` that differ from azimuth to azimuth where the
+        A dataset without scene, reason, plausible or score, and, of a scene with [strength], not_held; ``by`` or ``where`` that differ from azimuth to azimuth where the
         sweep computed one for all.
 
     >>> import wholehand as wh
@@ -168,7 +180,7 @@ def best(
     import numpy as np
     import xarray as xr
 
-    if not isinstance(by, (str, xr.DataArray)):
+    if by is not None and not isinstance(by, (str, xr.DataArray)):
         raise TypeError(f"best: by is {type(by).__name__}; allowed: the name of a variable, or a DataArray")
     if where is not None and not isinstance(where, xr.DataArray):
         said = repr(where) if isinstance(where, str) else type(where).__name__
@@ -181,7 +193,18 @@ def best(
     apart = scene._core.apart if apart_mm is None else float(apart_mm) / 1e3
     if count < 1 or not apart >= 0 or not np.isfinite(apart):
         raise Error(f"best: n is {n} and apart_mm is {apart_mm}; allowed: n of 1 or more, apart_mm of 0 or more")
-    missing = [f"'{name}'" for name in ("reason", "plausible", by) if isinstance(name, str) and name not in data]
+    if least_bad and not scene._core.has_effort:
+        raise Error("best: least_bad needs [strength] and [tilts], which the scene does not have")
+    if by is None:
+        by = "robust" if scene._core.has_robust else "score"
+    is_robust = isinstance(by, str) and by == "robust" and by not in data
+    if is_robust and not scene._core.has_robust:
+        raise Error("best: by is 'robust', and the scene has no [robust]; allowed: score, worst_effort, push or any other variable")
+    is_least = isinstance(by, str) and by == "worst_effort"
+    if is_robust:
+        by = "score"
+    needed = ["reason", "plausible", by, *(["not_held"] if scene._core.has_effort else []), *(["worst_effort"] if least_bad else [])]
+    missing = [f"'{name}'" for name in needed if isinstance(name, str) and name not in data]
     if missing:
         raise Error(f"best: the dataset lacks {', '.join(missing)}, by which grips are chosen: keep all of these in the sweep")
     data = _with_vessels(data)
@@ -198,18 +221,33 @@ def best(
     # as numbers with a sign: the best are looked for by the least of what is below zero
     own = data[by] if isinstance(by, str) else by
     wanted = _of_grips(own, data, dims, "by", "biuf").astype(np.float64).reindex_like(data["reason"])
-    eligible = (data["reason"] == 0) & (data["plausible"] == 1)
+    if is_least:
+        wanted = -wanted
+    plausible = eligible = (data["reason"] == 0) & (data["plausible"] == 1)
     if where is not None:
         eligible = eligible & _of_grips(where, data, dims, "where", "b").reindex_like(data["reason"], fill_value=False)
     order = ["vessel", *dims]
-    wanted, eligible = wanted.transpose(*order), eligible.transpose(*order)
+    fails = data["not_held"] == 1 if scene._core.has_effort else xr.zeros_like(data["reason"], dtype=bool)
+    wanted, eligible, plausible = wanted.transpose(*order), eligible.transpose(*order), plausible.transpose(*order)
+    fails = fails.transpose(*order)
+    efforts = data["worst_effort"].transpose(*order) if least_bad else None
     pieces = []
     for v, vessel in enumerate(data["vessel"].values.tolist()):
         part = data.isel(vessel=v)
         chooser = _Chooser(scene, part, dims, apart)
         scores, allowed = wanted.isel(vessel=v).values.ravel(), eligible.isel(vessel=v).values.ravel()
+        unheld, judged = fails.isel(vessel=v).values.ravel(), plausible.isel(vessel=v).values.ravel()
         for hand in _hands(part, dims, scene):
-            pieces.append(_listed(part, dims, chooser, chooser.choose(vessel, scores, allowed & hand, count)))
+            kept = scene._core.robust_candidates(count) if is_robust else count
+            places = chooser.choose(vessel, scores, allowed & ~unheld & hand, kept)
+            robust: dict[str, list[float]] = {}
+            if efforts is not None and not (judged & ~unheld & hand).any():  # in the order of their efforts, as in the program
+                places = chooser.choose(vessel, -efforts.isel(vessel=v).values.ravel(), allowed & hand, count)
+                if is_robust:
+                    robust = {name: [float("nan")] * len(places[0]) for name in _ROBUST}
+            elif is_robust:
+                places, robust = chooser.rank_robustly(vessel, places, count)
+            pieces.append(_listed(part, dims, chooser, places).assign({name: ("grip", values) for name, values in robust.items()}))
     return xr.concat(pieces, "grip", combine_attrs="override")
 
 
@@ -219,8 +257,15 @@ def _listed(part: xr.Dataset, dims: list[str], chooser: _Chooser, places: tuple[
     import xarray as xr
 
     names = [name for name, variable in part.data_vars.items() if set(dims) <= set(variable.dims)]
-    picked = part[names].isel({dim: xr.DataArray(at, dims="grip") for dim, at in zip(dims, places)})
     length = len(places[0])
+    # of none, the first one less itself: a file is not read at no place
+    picked = part[names].isel({dim: xr.DataArray(at if length else [0], dims="grip") for dim, at in zip(dims, places)})
+    if not length:
+        picked = picked.load().isel(grip=slice(0, 0))
+    if "worst_effort" in picked:
+        with np.errstate(divide="ignore"):
+            margin = (1 / picked["worst_effort"]).assign_attrs(units="1", long_name="1 / worst effort")
+        picked = picked.assign(held_margin=margin)
     coordinates = {
         name: ("grip", chooser.column(name, places), dict(part[name].attrs) if name in part.coords else {})
         for name in _core.GRIP_COLUMNS

@@ -38,4 +38,4 @@ class Note(UserWarning):
 def warn(lines: Iterable[str], above: int = 0) -> None:
     """Each line as a Note at the place of the call that the user wrote: that of the caller, or of so many above it."""
     for line in lines:
-        warnings.warn(line, Note, stacklevel=3 + above)
+        warnings.warn(line.removeprefix("note: "), Note, stacklevel=3 + above)

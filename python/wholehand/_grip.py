@@ -82,7 +82,7 @@ class Grip(Mapping[str, Any]):
 
     @property
     def score(self) -> float:
-        """Larger is better; 0 where the grip is infeasible or implausible."""
+        """Larger is better; 0 where the grip is infeasible, implausible or not held."""
         return float(self._values.get("score", 0.0))
 
     @property

@@ -165,6 +165,55 @@ def _parse(text: str, name: str) -> Scene:
         raise
 
 
+def new(
+    name: str = "vessel",
+    *,
+    shape: str = "cylinder",
+    mesh: str | os.PathLike[str] | None = None,
+    fill_ml: float | None = None,
+    **numbers: float,
+) -> Scene:
+    """A complete scene of one vessel: table, liquid, strength, grips, tilts, deviations. Its ``text`` is commented TOML to edit.
+
+    Parameters
+    ----------
+    name : str
+        Name of the scene and of its vessel.
+    shape : "cylinder", "flask" or "conical"
+        With its dimensions as ``diameter_mm``, ``height_mm``, ``neck_mm``, ``upright_mm``, ``shoulder_mm``, and ``wall_mm`` and
+        ``density_kg_m3`` of its wall (1.5 mm of glass): the keys of ``[[vessel]]`` in docs/scene.md.
+    mesh : path, optional
+        Instead of a shape, with ``mass_kg``, ``density_kg_m3`` or ``mesh_scale``. A solid, without liquid.
+    fill_ml : float, optional
+        The grips are judged with the vessel empty and with so much. Else at five fills up to the brim.
+
+    Raises
+    ------
+    Error
+        The key, what was given, and what is allowed.
+
+    >>> import wholehand as wh
+    >>> glass = wh.new("glass", diameter_mm=70, height_mm=120, fill_ml=250)
+    >>> glass
+    <Scene glass: glass>
+    >>> try:
+    ...     wh.new("flask", shape="flask", diameter_mm=70, height_mm=120)
+    ... except wh.Error as error:
+    ...     print(error)
+    [[vessel]] lacks 'neck_mm'; allowed: a flask with diameter_mm, neck_mm, height_mm
+    """
+    known = _core.new_scene_keys()
+    for key, value in numbers.items():
+        if key not in known:
+            raise TypeError(f"new: {key} is no keyword; allowed: shape, mesh, fill_ml, {', '.join(known)}")
+        if isinstance(value, bool) or not hasattr(value, "__float__"):
+            raise TypeError(f"new: {key} is {type(value).__name__}; allowed: a number")
+    given = [(key, float(numbers[key])) for key in known if key in numbers]
+    path = "" if mesh is None else _encodable(os.fspath(mesh))
+    text = _core.new_scene(_encodable(name), _encodable(shape), path, given, None if fill_ml is None else float(fill_ml))
+    return Scene(_core.parse_scene(text, "text"))
+
+
 def scenes() -> list[str]:
     """The names of the scenes that are shipped.
 

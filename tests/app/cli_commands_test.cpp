@@ -121,7 +121,7 @@ TEST(CommandLine, StiffestWallOfADevice) {
   EXPECT_NEAR(limits["coulomb_K_Npm"].get<double>(), 1500, 1e-6);
   EXPECT_GT(limits["largest_stable_K_Npm"].get<double>(), 1500);
   const Outcome table = run("PROGRAM stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --wall-damping-Nspm 0.5");
-  EXPECT_NE(table.output.find("2990.1"), std::string::npos) << table.output;
+  EXPECT_NE(table.output.find("2,990.1"), std::string::npos) << table.output;
 }
 
 TEST(CommandLine, EvaluatesOneGrip) {

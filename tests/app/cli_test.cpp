@@ -57,10 +57,11 @@ TEST(CommandLine, ListsTheShippedScenes) {
 
 TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "the command is missing; allowed: sweep, merge, rank, report, grip, trials, study, check, "},
+      {"", "the command is missing; allowed: sweep, merge, rank, compare, report, grip, trials, study, check, "},
       {"", ", scenes or help; see wholehand --help"},
       {"swep",
-       "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, merge, rank, report, grip, trials, study, check, "},
+       "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, merge, rank, compare, report, grip, trials, study, "
+       "check, "},
       {"stab", "unknown command 'stab' (did you mean 'stability'?); the commands are "},
       {"xyzzy", "unknown command 'xyzzy'; the commands are sweep, "},
       {"help swep", "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, "},

@@ -93,6 +93,7 @@ TEST(HostileNames, SteerNothingInErrorLines) {
                                     "live " + scene + " --device " + quoted(HOSTILE),
                                     "session " + scene,
                                     "rank " + scene,
+                                    "compare " + scene + " " + quoted(HOSTILE),
                                     "report " + scene,
                                     "merge " + scene,
                                     "view " + quoted(folder / HOSTILE),

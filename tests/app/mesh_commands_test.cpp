@@ -153,7 +153,7 @@ TEST_F(MeshCommands, ReadmesSceneAsksWhatADefaultSweepAsks) {
   write("mug.glb", glb_text(turned_mesh(cylinder("mug", 80, 95, 1.5), 64, 2e-3)));
   const Outcome swept = run("PROGRAM sweep " + path("mug.toml") + " --on core -o " + path("mug.nc") + " 2>&1");
   EXPECT_EQ(swept.code, 0) << swept.output;
-  for (const char* part : {"mug: 17,280 of 17,280 grips feasible", "through the table", "safe deg", "effort  push N"})
+  for (const char* part : {"mug: 17,280 of 17,280 grips feasible", "through the table", "safe deg", "effort  margin  push N"})
     EXPECT_TRUE(has(swept.output, part)) << part << " in\n" << swept.output;
 }
 

@@ -76,10 +76,11 @@ TEST(FollowedRemedies, HelpSweepAndRank) {
        rank + "--where 'worst_effort < 2'"},
       {WHOLE, rank + "--where 'max(effort) < 2'", "add \"effort\" to [output] also of the scene",
        WHOLE + "[output]\nalso = [\"effort\"]\n", rank + "--where 'max(effort) < 2'"},
-      {WHOLE + keep + ", \"plausible\"]\n", rank + "--where 'gap_mm < 200'", "add \"gap\" to [output] keep of the scene",
-       WHOLE + keep + ", \"plausible\", \"gap\"]\n", rank + "--where 'gap_mm < 200'"},
-      {WHOLE + keep + "]\n", rank, "lacks plausible, as keep of the sweep does not name it; add it",
-       WHOLE + keep + ", \"plausible\"]\n", rank},
+      {WHOLE + keep + ", \"plausible\", \"not_held\"]\n", rank + "--where 'gap_mm < 200'",
+       "add \"gap\" to [output] keep of the scene", WHOLE + keep + ", \"plausible\", \"not_held\", \"gap\"]\n",
+       rank + "--where 'gap_mm < 200'"},
+      {WHOLE + keep + "]\n", rank, "lacks plausible, not_held, as keep of the sweep does not name them; add them",
+       WHOLE + keep + ", \"plausible\", \"not_held\"]\n", rank},
       {WHOLE, SWEEP + "--best 1 --glb 2", "give --best 2 too", WHOLE, SWEEP + "--best 2 --glb 2"},
       {WHOLE, rank + "--glb 1", "give -o LIST.csv", WHOLE, rank + "--glb 1 -o @.csv"},
       {WHOLE, rank + "--best 1 --glb 2 -o @.csv", "give --best 2 too", WHOLE, rank + "--best 2 --glb 2 -o @.csv"},
@@ -233,7 +234,7 @@ TEST(FollowedRemedies, HelpWithAGripper) {
                     live = "live @.toml --device omega --dhd-library " STAND_IN_DHD " --seconds 0.3 ";
   expect_helps({
       {hand + "\"left\"\n", live, "set handedness = \"right\" in [hand]", hand + "\"right\"\n", live},
-      {board, live + "--rate 5000", "measures at most 4000 times a second; allowed: a --rate up to this number", board,
+      {board, live + "--rate 5000", "measures at most 4,000 times a second; allowed: a --rate up to this number", board,
        live + "--rate 4000"},
   });
   const std::string bare = "live @.toml --device omega --seconds 0.3 ", none = bare + "--dhd-library /none.so";

@@ -52,7 +52,7 @@ Difference difference_of(const Scene& scene_a, const Scene& scene_b) {
 constexpr int DEPTH_TERM = 2, HOLD_TERM = 5;  // planes of FIELD_TERMS
 
 // With strengths the force of a hold is that of tips that share it, a safe tilt is one that the whole hand holds, and the term of holding is
-// the effort's. Nothing about the hand on the vessel changes.
+// the effort's; some grips are not held. Nothing about the hand on the vessel changes.
 TEST(KeptBits, StrengthsChangeOnlyWhatIsOfHolding) {
   for (const Pose pose : {Pose::articulated, Pose::paper}) {
     Scene without = hard_scene();
@@ -62,7 +62,7 @@ TEST(KeptBits, StrengthsChangeOnlyWhatIsOfHolding) {
     const Difference found = difference_of(without, with);
     EXPECT_EQ(found.fields, (std::set<int>{FIELD_LARGEST_HOLD, FIELD_SAFE_TILT, FIELD_SCORE, FIELD_TERMS, FIELD_HOLD_FORCE}));
     EXPECT_EQ(found.terms, std::set<int>{HOLD_TERM});
-    EXPECT_EQ(found.status, 0u);
+    EXPECT_EQ(found.status, std::uint32_t(STATUS_NOT_HELD));
     EXPECT_GT(found.feasible, 80);
   }
 }

@@ -300,6 +300,38 @@ TEST_F(CompareEfforts, FindAnInfiniteEffortThatIsNone) {
   EXPECT_EQ(all, wrong);
 }
 
+TEST_F(CompareEfforts, FindAGripThatIsWronglyCalledHeldOrNot) {
+  std::uint64_t changed = 0;
+  const auto [wrong, all] = outside("discrete outcomes", [&](GatheredPlanes& planes, std::size_t i) {
+    if (!plausible(i)) return;
+    planes.uints[planes.fields.plane[FIELD_STATUS] * planes.count + i] ^= STATUS_NOT_HELD;
+    ++changed;
+  });
+  EXPECT_GT(changed, 20u);
+  EXPECT_GE(10 * wrong, 9 * changed) << "but those that are as near to 1 as both sides may be off";
+  EXPECT_EQ(all, wrong);
+}
+
+// A grip that takes nearly all of the strength: two efforts that agree may lie on both sides of the gate.
+TEST_F(CompareEfforts, LetAGripDifferThatIsNearTheGate) {
+  std::size_t at = 0;
+  const auto worst = [&](const GatheredPlanes& planes) { return planes.real(planes.fields.plane[FIELD_WORST_EFFORT], at); };
+  while (!(plausible(at) && std::isfinite(worst(planes_)) && worst(planes_) > 0)) ++at;
+  for (double& digit : scene_.strength->digits) digit *= worst(planes_) / 1.0003;
+  core_ = make_core_evaluator(scene_);
+  planes_ = gather(*core_, compared_fields(scene_), 0, grips_);
+  ASSERT_NEAR(worst(planes_), 1.0003, 1e-3);
+  const auto flipped = [&](double effort) {
+    GatheredPlanes other = planes_;
+    other.uints[other.fields.plane[FIELD_STATUS] * other.count + at] ^= STATUS_NOT_HELD;
+    real(other, FIELD_WORST_EFFORT, 0, at) = effort;
+    Comparer comparer(scene_, *core_, allowance(Precision::single));
+    comparer.add(0, grips_, other, planes_);
+    return std::pair(comparer.excluded(), comparer.holds());
+  };
+  EXPECT_EQ(flipped(2 - worst(planes_)), std::pair(std::uint64_t{1}, true));
+}
+
 // A state that takes less is as wrong as one that is not listed.
 TEST_F(CompareEfforts, FindAWorstStateThatIsNone) {
   const GatheredPlanes of_states = gather(*core_, make_field_set({FIELD_EFFORT, FIELD_STATUS}, scene_), 0, grips_);

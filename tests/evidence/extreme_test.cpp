@@ -62,7 +62,7 @@ core_f64::HandStrength even_strength(const AnsweredScene& a, double strength) {
 }
 
 core_f64::HandStrength scene_strength(const AnsweredScene& a, std::size_t v, std::size_t i) {
-  return core_f64::load_strength(a.scene, upright_contacts(a, v, i, true));
+  return core_f64::load_strength(a.scene, a.result(v, i));
 }
 
 // Prices of 1e6, or as much times as the digits differ in strength, each rounded by 1e-16.
@@ -408,11 +408,11 @@ void widest_deviations(const AnsweredScene& a) {
   const OpenBackend open = [](const Scene& scene, const FieldSet& fields) {
     return open_backend(scene, fields, "core", Precision::full, 1);
   };
-  ASSERT_TRUE(add_robust_scores(open, a.scene, plan, nullptr, lists));
+  ASSERT_TRUE(rank_robustly(open, a.scene, plan, MOST_ROBUST, nullptr, lists));
   std::size_t above = 0;
   for (const BestGrip& best : lists[0]) {
-    for (const double score : {best.robust_low, best.robust_mean}) EXPECT_TRUE(score >= 0 && score <= 1) << best.candidate.index;
-    above += best.robust_mean > 0 ? 1 : 0;
+    for (const double score : {best.robust.low, best.robust.mean}) EXPECT_TRUE(score >= 0 && score <= 1) << best.candidate.index;
+    above += best.robust.mean > 0 ? 1 : 0;
   }
   EXPECT_GT(above, 0u);
 }

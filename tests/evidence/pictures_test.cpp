@@ -33,7 +33,7 @@ TEST(WallPicture, HasFourMapsWithTheirLimits) {
   const std::string svg = wall_picture(sheets_by_theory());
   expect_well_formed(svg);
   EXPECT_TRUE(has(svg, std::string(PICTURE_MARK)));
-  for (const char* text : {"A rendered wall on a device of 100 g, 1 N s/m", "no wall damping", "rate (Hz)", ">250<", ">8000<",
+  for (const char* text : {"A rendered wall on a device of 100 g, 1 N s/m", "no wall damping", "rate (Hz)", ">250<", ">8,000<",
                            ">10⁴<", "wall damping B (N s/m)", "delay (samples)", "encoder step D (µm)", "stiffness K (N/m)",
                            "settles", "does not", "linear limit", "b = KT/2 + |B|", "min(2b/T, 2f_c/D)"})
     EXPECT_TRUE(has(svg, text)) << text;

@@ -14,6 +14,7 @@
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "sweeps/plan.h"
+#include "tests/support/meshes.h"
 
 namespace wholehand {
 namespace {
@@ -104,6 +105,36 @@ TEST(UndecidedContacts, AreFlaggedWhereAFingerRestsByRounding) {
     differing += one.planes.uint(FIELD_TOUCH_MASK, 0) != all[0].planes.uint(FIELD_TOUCH_MASK, 0) ? 1 : 0;
   }
   EXPECT_GT(differing, 0u);
+}
+
+// A mesh's lattice flags as few grips as the outline that it is made of: its fingers come to rest at the wall, and do not pass it.
+TEST(UndecidedContacts, AreAsFewOnALatticeAsOnItsOutline) {
+  Scene outline = beaker_scene();
+  outline.strength.reset();
+  Scene mesh = outline;
+  mesh.vessels = {vessel_of_mesh("mesh", turned_mesh(outline.vessels[0], 96, 1e-3), 1e-3)};
+  std::vector<GripInput> grips;
+  for (int k = 0; k < 300; ++k) {
+    GripInput grip = touching_grip();
+    grip.height = 0.04 + 1.7e-4 * k;
+    grip.azimuth = 0.021 * k;
+    grip.roll = -1.5 + 0.0051 * k;
+    grips.push_back(grip);
+  }
+  const auto flagged = [&](const Scene& scene) {
+    const Undecided core{"core",
+                         gather(*open_backend(scene, make_field_set({FIELD_STATUS}, scene), "core", Precision::full, 1), 0, grips)};
+    const Undecided device{
+        "vulkan", gather(*open_backend(scene, make_field_set({FIELD_STATUS}, scene), "vulkan", Precision::single, 1), 0, grips)};
+    int both = 0, articulated = 0;
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      both += core.is_flagged(i) || device.is_flagged(i) ? 1 : 0;
+      articulated += (core.outcome(i) & STATUS_REASON_MASK) == REASON_NONE ? 1 : 0;
+    }
+    EXPECT_GT(articulated, 200);
+    return both;
+  };
+  EXPECT_LE(flagged(mesh), flagged(outline) + 9) << "3 % of the grips: facets and cells have edges where the outline has none";
 }
 
 // The efforts of a report are those that the score was made of, whatever answers.

@@ -88,32 +88,6 @@ TEST(GripBackend, ForcesOfGripsTogetherHaveTheBitsOfForcesOneByOne) {
   }
 }
 
-// One device for several frictions, as [robust] needs it: to the bits of a device that was opened for each.
-TEST(GripBackend, AnotherFrictionGivesTheBitsOfADeviceOpenedWithIt) {
-  Scene scene = scene_of({beaker1(), beaker3()});
-  scene.tilts = {0, radians(40), radians(110)};
-  scene.strength = StrengthData{};
-  const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene);
-  const auto moving = backend_of(scene, fields);
-  std::vector<std::vector<GripInput>> grips;
-  std::vector<GatheredPlanes> before;
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    grips.push_back(sample_grips(scene.vessels[v], 200, 17 + v));
-    before.push_back(gather(*moving, v, grips[v]));
-  }
-  Scene other = scene;
-  other.force.friction = 0.9;
-  ASSERT_TRUE(moving->use_friction_of(other));
-  const auto fresh = backend_of(other, fields);
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    const GatheredPlanes expected = gather(*fresh, v, grips[v]);
-    EXPECT_EQ(differences(gather(*moving, v, grips[v]), expected), 0u);
-    EXPECT_GT(differences(before[v], expected), 0u) << "friction changes nothing here";
-  }
-  ASSERT_TRUE(moving->use_friction_of(scene));
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) EXPECT_EQ(differences(gather(*moving, v, grips[v]), before[v]), 0u);
-}
-
 // One device for a liquid that drains, as advice needs it: to the bits of a device that was opened for each fill.
 TEST(GripBackend, OtherFillsGiveTheBitsOfADeviceOpenedWithThem) {
   Scene scene = wet({beaker1(), beaker3()});

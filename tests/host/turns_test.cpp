@@ -18,6 +18,7 @@
 #include "host/grip_backend.h"
 #include "host/grip_program.h"
 #include "host/run_once.h"
+#include "shaders/status.h"
 #include "tests/shaders/probe_shaders.h"
 #include "tests/support/scene_texts.h"
 #include "tests/support/scenes.h"
@@ -213,7 +214,7 @@ TEST(Turns, AGripWhoseTurnsRunOutIsTheCores) {
       const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
       EXPECT_EQ(status, truth.uint(FIELD_STATUS, chunk.first + i)) << i;
       if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) != STATUS_PLAUSIBLE) continue;
-      best.push_back({chunk.real(fields.plane[FIELD_SCORE], i), chunk.first + i});
+      if (is_eligible(status)) best.push_back({chunk.real(fields.plane[FIELD_SCORE], i), chunk.first + i});
       const int plane = fields.plane[FIELD_FRICTION_NEEDED];
       const double found = chunk.real(plane, i), right = truth.real(plane, chunk.first + i);
       EXPECT_NEAR(found, right, i == HARD_GRIP ? 1e-6 * right : 0.02 * right) << i;

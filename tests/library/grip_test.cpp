@@ -35,6 +35,7 @@ void expect_same(const wh_grip_result& c, const GripResult& cpp, const GripScore
   EXPECT_EQ(c.is_grazing, cpp.grazing ? 1 : 0);
   EXPECT_EQ(c.overlaps_itself, cpp.self_overlap ? 1 : 0);
   EXPECT_EQ(c.is_through_table, cpp.through_table ? 1 : 0);
+  EXPECT_EQ(c.is_not_held, score.not_held ? 1 : 0);
   EXPECT_EQ(c.touch_mask, cpp.touch_mask);
   EXPECT_EQ(c.used_mask, cpp.used_mask);
   EXPECT_EQ(c.tip_mask, cpp.tip_mask);

@@ -228,7 +228,7 @@ TEST(HandView, HoldsWithTheEffortOfTheGrip) {
         contacts.push_back({to_vec3(contact.point), to_vec3(contact.normal), contact.digit, contact.is_tip});
         if (is_tracked(contact.joint)) tips.push_back(contacts.back());
       }
-      const core_f64::HandStrength strength = core_f64::load_strength(scene, tips);
+      const core_f64::HandStrength strength = core_f64::load_strength(scene, result);
       const core_f64::Wrench weight = weight_in(scene, *evaluator, held.tick);
       const auto effort = core_f64::EffortSolver(contacts, strength, Vec3(0)).solve(weight),
                  of_tips = core_f64::EffortSolver(tips, strength, Vec3(0)).solve(weight);

@@ -181,7 +181,7 @@ TEST(MeshCheck, AWallThatEndsWithinABodyIsNamed) {
   EXPECT_GT(facts.odd_edges, 0u);
   EXPECT_FALSE(facts.closed || facts.has_sure_volume());
   const std::string text = mesh_check_text(facts);
-  EXPECT_TRUE(says(text, "of three triangles or more a wall ends within the body")) << text;
+  EXPECT_TRUE(says(text, "of three triangles or more a wall or a fin ends on the body")) << text;
   EXPECT_GT(facts.open_edges, 0u);
   EXPECT_FALSE(says(text, "hole")) << text;
 }

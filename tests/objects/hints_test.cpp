@@ -275,7 +275,7 @@ TEST(MeshHints, FollowingARemedyHelps) {
       {finned, "close_holes = true", "form no loop, as a surface meets others there: remove it", box, "close_holes = true"},
       {box, "close_holes = true", "close_holes closes nothing", box, ""},
       {holed, "", "which close_holes = true closes", holed, "close_holes = true"},
-      {walled, "", "remove that wall", box, ""},
+      {walled, "", "remove it", box, ""},
       {joined(box, box_mesh({-0.02, 0.03, -0.02}, {0.02, 0.15, 0.02})), "", "its bodies overlap", box, ""},
       {flat, "", "give it a thickness", box, ""},
       {box, far_off, "give it in the vessel's frame", box, within},

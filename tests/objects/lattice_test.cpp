@@ -219,7 +219,7 @@ TEST(MeshLattice, ARefusedSpacingNamesTheFinestThatFits) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::usage);
     const std::string line = error.what(), words = "the finest that fits has ";
-    EXPECT_NE(line.find("a lattice of 0.5 mm has 6.9e+06 samples of 2 bytes, and 1 MB are free for them"), std::string::npos)
+    EXPECT_NE(line.find("a lattice of 0.5 mm has 6,904,125 samples of 2 bytes, and 1 MB are free for them"), std::string::npos)
         << line;
     ASSERT_NE(line.find(words), std::string::npos) << line;
     wish.spacing = 1e-3 * std::stod(line.substr(line.find(words) + words.size()));

@@ -12,6 +12,25 @@ import xarray as xr
 
 from installed import MESH, SEVERAL, SOBOL, InFolder, complaint, run, tube_ply
 
+# a canister of 5.5 kg
+HEAVY = """[[vessel]]
+name = "canister"
+shape = "cylinder"
+diameter_mm = 75
+height_mm = 180
+wall_mm = 20
+density_kg_m3 = 7800
+[table]
+[strength]
+[liquid]
+fills = [0, 1]
+[grips]
+height_fraction = { from = 0.3, to = 0.9, count = 4 }
+roll_deg = { from = -90, to = 0, count = 3 }
+[tilts]
+deg = [0, 45, 90]
+"""
+
 
 class Best(InFolder):
     def setUp(self):
@@ -56,6 +75,17 @@ class Best(InFolder):
                 self.same(wh.best(data, n=n, apart_mm=apart), self.ranked("--best", n, "--apart-mm", apart))
             data.close()
 
+    def test_it_ranks_as_the_program_does(self):
+        data = self.data_of(SEVERAL + "[robust]\nheight_mm = 3\nroll_deg = 5\ncount = 8\n")
+        self.same(wh.best(data, n=4), self.ranked("--best", 4))
+        self.same(wh.best(data, n=4, by="robust"), self.ranked("--best", 4, "--rank-by", "robust"))
+        for by in ("score", "worst_effort", "push"):
+            self.same(wh.best(data, n=4, by=by), self.ranked("--best", 4, "--rank-by", by))
+        self.assertGreater(wh.best(data, n=4).robust_low.values.max(), 0)
+        data.close()
+        without = self.data_of(SEVERAL)
+        self.assertIn("no [robust]", str(self.refused(wh.best, without, by="robust")))
+
     def test_where_vectors_are_kept_azimuths_count(self):
         data = self.data_of(SEVERAL.replace("[output]", '[output]\nalso = ["midpoint"]'))
         self.same(wh.best(data, n=30, apart_mm=10), self.ranked("--best", 30, "--apart-mm", 10))
@@ -75,6 +105,35 @@ class Best(InFolder):
         of_states = self.refused(wh.best, data, by="largest_safe_tilt")
         self.assertIn("fill", str(of_states))
         np.testing.assert_array_equal(wh.best(data, n=2, by=data.score)["score"], wh.best(data, n=2)["score"])
+
+    def test_grips_that_do_not_hold_are_listed_on_request_alone(self):
+        data = self.data_of(HEAVY)
+        self.assertGreater(int((data.not_held == 1).sum()), 3)
+        np.testing.assert_array_equal(data.not_held == 1, data.worst_effort > 1)
+        np.testing.assert_array_equal(data.score.values[data.not_held.values == 1], 0)
+        self.assertEqual(wh.best(data).sizes["grip"], 0)
+        least_bad = wh.best(data, n=4, apart_mm=0, least_bad=True)
+        self.same(least_bad, self.ranked("--least-bad", "--best", 4, "--apart-mm", 0))
+        self.assertTrue((least_bad.held_margin < 1).all())
+        np.testing.assert_allclose(least_bad.held_margin * least_bad.worst_effort, 1)
+        np.testing.assert_array_equal(np.sort(data.worst_effort.values, axis=None)[:4], least_bad.worst_effort)
+        self.assertIn("'not_held'", str(self.refused(wh.best, data.drop_vars("not_held"))))
+        data.close()
+        robust = self.data_of(HEAVY + "[robust]\nheight_mm = 3\ncount = 8\n")
+        self.assertEqual(wh.best(robust).sizes["grip"], 0)
+        least_bad = wh.best(robust, n=4, apart_mm=0, least_bad=True)
+        self.same(least_bad, self.ranked("--least-bad", "--best", 4, "--apart-mm", 0))
+        self.assertTrue(np.isnan(least_bad.robust_low).all())
+        robust.close()
+        light = self.data_of(HEAVY.replace("wall_mm = 20", "wall_mm = 1"))
+        held = wh.best(light, n=50)
+        self.assertGreater(held.sizes["grip"], 0)
+        self.assertTrue((held.not_held == 0).all() and (held.held_margin >= 1).all())
+        xr.testing.assert_identical(held, wh.best(light, n=50, least_bad=True))
+        light.close()
+        without = self.data_of(HEAVY.replace("[strength]", ""))
+        self.assertIn("[strength]", str(self.refused(wh.best, without, least_bad=True)))
+        without.close()
 
     def test_a_part_of_a_dataset(self):
         data = self.data_of(SEVERAL).load()

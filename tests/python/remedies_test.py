@@ -24,8 +24,8 @@ class Remedies(InFolder):
 
         for words, refused, followed in [
             ("give one of wh.sweep", lambda: wh.best(data.score.to_dataset()), lambda: wh.best(data)),
-            ("lacks 'reason', 'plausible', 'score', by which grips are chosen: keep all of these", lambda: wh.best(kept("gap")),
-             lambda: wh.best(kept("gap", "reason", "plausible", "score"))),
+            ("lacks 'reason', 'plausible', 'score', 'not_held', by which grips are chosen: keep all of these", lambda: wh.best(kept("gap")),
+             lambda: wh.best(kept("gap", "reason", "plausible", "score", "not_held"))),
             ("reduce it, say with .max('fill')", lambda: wh.best(data, by=by_fill(data)),
              lambda: wh.best(data, by=by_fill(data).max("fill"))),
             ("select one: data.sel(vessel='...')", lambda: wh.grips(data), lambda: wh.grips(data.sel(vessel="low"))),

@@ -23,6 +23,15 @@ class Scenes(InFolder):
         self.assertEqual(wh.scene(named.text).file, "text")
         self.assertEqual(named.name, "three_beakers")
 
+    def test_a_new_scene_is_that_of_the_program(self):
+        run("new", "cup", "--shape", "flask", "--diameter-mm", "85", "--neck-mm", "34", "--height-mm", "140", "--fill-ml", "100")
+        made = wh.new("cup", shape="flask", diameter_mm=85, neck_mm=34, height_mm=140, fill_ml=100)
+        self.assertEqual(made.text, pathlib.Path("cup.toml").read_text())
+        with self.assertRaisesRegex(wh.Error, "lacks 'height_mm'"):
+            wh.new("cup", diameter_mm=85)
+        with self.assertRaisesRegex(TypeError, "radius_mm"):
+            wh.new("cup", radius_mm=85)
+
     def test_shipped_scenes_are_those_of_the_program(self):
         listed = run("scenes")
         self.assertGreaterEqual(len(wh.scenes()), 4)

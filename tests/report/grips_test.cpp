@@ -108,22 +108,24 @@ TEST(ReportGrips, RefinedGripsAreToldBesideTheSweptOnes) {
 TEST(ReportGrips, RobustScoresAreToldBesideTheScores) {
   EXPECT_EQ(written_grips(SweptScene(RESULT_SCENE), 1).find("obust"), std::string::npos);
   SweptScene swept(edited(RESULT_SCENE, "[tilts]", "[robust]\nroll_deg = 5\ncount = 48\n[tilts]"));
-  std::vector<double> means, lows;
+  std::vector<double> means, lows, shares(10, 0.875);
   for (int place = 0; place < 10; ++place) {  // five of each of two vessels
     means.push_back(0.9012 - 0.01 * place);
     lows.push_back(0.5023 - 0.02 * place);
   }
   swept.change("best_robust_mean", means);
   swept.change("best_robust_low", lows);
+  swept.change("best_robust_share", shares);
   const ReportedGrips best = read_grips(*swept.source, 1);
   ASSERT_EQ(best.grips.size(), 5u);
-  EXPECT_EQ(best.grips[0].robust_mean, means[5]);
-  EXPECT_EQ(best.grips[4].robust_low, lows[9]);
+  EXPECT_EQ(best.grips[0].robust.mean, means[5]);
+  EXPECT_EQ(best.grips[4].robust.low, lows[9]);
   const std::string html = written_grips(swept, 1);
-  for (const char* column : {"robust mean", "robust low"})
+  for (const char* column : {"robust low", "robust mean", "share that holds"})
     EXPECT_EQ(times_in(html, std::string(">") + column + "</th>"), 1u) << column;
   for (std::size_t place = 5; place < 10; ++place) {
-    const std::string cells = "<td>" + shown_number(means[place], 3) + "</td>\n<td>" + shown_number(lows[place], 3) + "</td>";
+    const std::string cells = "<td>" + shown_number(lows[place], 3) + "</td>\n<td>" + shown_number(means[place], 3) +
+                              "</td>\n<td>" + shown_number(0.875, 2) + "</td>";
     EXPECT_EQ(times_in(html, cells), 1u) << cells << html;
   }
   EXPECT_EQ(times_in(html, "at 48 random deviations by [robust]"), 1u);

@@ -136,7 +136,9 @@ TEST(WriteEfforts, HasTwoLinesTheLimitAndTheNumbers) {
 TEST(WriteEfforts, WhatTwoTipsCannotHoldIsSaid) {
   // without torsion and friction two points hold nothing
   const SweptScene swept(edited(strong_scene(), "[tilts]", "[force]\nfriction = 0\n[tilts]"));
-  const std::string html = efforts_html(swept, 0);
+  MarkupWriter writer;
+  write_efforts(writer, *swept.source, 0, SweptScene(strong_scene()).best_grip(0), "v");
+  const std::string html = writer.written();
   EXPECT_TRUE(has(html, "No force of the two tips holds the vessel at any tilt, so they have no line."));
   EXPECT_TRUE(has(html, "Two tips: no force holds the vessel at any tilt."));
   EXPECT_FALSE(has(html, ">two tips</text>"));

@@ -18,7 +18,7 @@ LoadedGrip held_grip(const Scene& scene, const Evaluator& evaluator, std::size_t
     held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit, found.is_tip});
     if (found.is_tip) held.tips.push_back(held.contacts.back());
   }
-  held.hand = core_f64::load_strength(scene, held.tips);
+  held.hand = core_f64::load_strength(scene, result);
   held.counted = counted_tilts(scene, vessel);
   held.gravity = scene.gravity;
   const core_f64::Vec3 line(std::cos(grip.azimuth) * std::cos(grip.obliquity), std::sin(grip.obliquity),

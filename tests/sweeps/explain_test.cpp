@@ -39,6 +39,11 @@ struct Explained {
   }
 };
 
+double number(std::string text) {
+  std::erase(text, ',');
+  return std::stod(text);
+}
+
 Explained explain(const Scene& scene, const std::string& on, Precision precision = Precision::single) {
   const auto variables = choose_variables(scene);
   const Plan plan(scene, keeps_vectors(variables));
@@ -48,11 +53,11 @@ Explained explain(const Scene& scene, const std::string& on, Precision precision
   std::istringstream lines(explained.text);
   std::smatch match;
   for (std::string line; std::getline(lines, line);) {
-    if (std::regex_search(line, match, std::regex("this sweep: ([0-9.]+) us, ([0-9]+) B\\)$"))) {
-      explained.microseconds = std::stod(match[1]);
-      explained.bytes = std::stoll(match[2]);
-    } else if (std::regex_match(line, match, std::regex("  (.*?) +(-?[0-9.]+) us +(-?[0-9]+) B  (.+)"))) {
-      explained.rows.push_back({match[1], match[4], std::stod(match[2]), std::stoll(match[3])});
+    if (std::regex_search(line, match, std::regex("this sweep: ([0-9.,]+) us, ([0-9,]+) B\\)$"))) {
+      explained.microseconds = number(match[1]);
+      explained.bytes = static_cast<long long>(number(match[2]));
+    } else if (std::regex_match(line, match, std::regex("  (.*?) +(-?[0-9.,]+) us +(-?[0-9,]+) B  (.+)"))) {
+      explained.rows.push_back({match[1], match[4], number(match[2]), static_cast<long long>(number(match[3]))});
     }
   }
   return explained;
@@ -175,14 +180,16 @@ TEST(Explain, SaysWhatRobustScoresCost) {
   scene.robust->friction = 0.1;
   const std::string text = explain(scene, "core").text;
   std::smatch match;
-  ASSERT_TRUE(std::regex_search(text, match,
-                                std::regex("not left out: the robust scores, 24 deviations of 14 best grips at most, which cost "
-                                           "([0-9.e-]+) s a sweep \\(([0-9.]+) us each\\), and ([0-9.e-]+) s to begin with each "
-                                           "of 8 frictions\n")))
+  ASSERT_TRUE(
+      std::regex_search(text, match,
+                        std::regex("not left out: the robust scores by the core, 24 deviations of the 14 listed grips, which cost "
+                                   "([0-9.e-]+) s a sweep \\(([0-9.]+) us each\\); of 112 candidates those that cannot be "
+                                   "listed are judged at fewer, which saves up to ([0-9.e-]+) s\n")))
       << text;
   // to the digits that are told
   EXPECT_NEAR(std::stod(match[1]), 24 * 14 * 1e-6 * std::stod(match[2]), 0.01 * std::stod(match[1])) << text;
   EXPECT_GT(std::stod(match[2]), 0);
+  EXPECT_NEAR(std::stod(match[3]), 7 * std::stod(match[1]), 0.02 * std::stod(match[3])) << text;
   scene.output.best = 0;
   EXPECT_EQ(explain(scene, "core").text.find("robust"), std::string::npos) << "nothing is listed";
 }

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <utility>
+
 #include "tests/support/scenes.h"
 #include "tests/support/sweep_trial.h"
 
@@ -17,22 +20,42 @@ std::string notes_of(const Scene& scene, std::size_t best = 5) {
   return all;
 }
 
+// Nothing is missing in it.
 Scene tilted_scene() {
   Scene scene = scene_of({beaker1()});
   scene.tilts = {0, 1};
+  scene.table.emplace();
+  scene.strength.emplace();
+  scene.grips.height.values = {0.4, 0.6};
   return scene;
+}
+
+TEST(IdleNotes, WhatIsNotJudgedIsNamed) {
+  const Scene whole = tilted_scene();
+  EXPECT_EQ(notes_of(whole), "");
+  const std::vector<std::pair<std::string, std::function<void(Scene&)>>> lacks{
+      {"[table]", [](Scene& scene) { scene.table.reset(); }},
+      {"[strength]", [](Scene& scene) { scene.strength.reset(); }},
+      {"[tilts]", [](Scene& scene) { scene.tilts.clear(); }},
+      {"one grip", [](Scene& scene) { scene.grips.height.values = {0.5}; }}};
+  for (std::size_t k = 0; k < lacks.size(); ++k) {
+    Scene scene = whole;
+    lacks[k].second(scene);
+    const std::string note = unjudged_note(scene, Plan(scene, false));
+    for (std::size_t other = 0; other < lacks.size(); ++other)
+      EXPECT_EQ(note.find(lacks[other].first) != std::string::npos, other == k) << note;
+  }
 }
 
 TEST(IdleNotes, StrengthNeedsTilts) {
   Scene scene = tilted_scene();
-  scene.strength = StrengthData{};
   EXPECT_EQ(notes_of(scene), "");
   scene.tilts.clear();
   EXPECT_EQ(notes_of(scene), "") << "nobody asked for it";
   scene.strength->place = "scene.toml:1:1";
   EXPECT_EQ(notes_of(scene).find("note: [strength] changes nothing here"), 0u);
   scene.strength.reset();
-  EXPECT_EQ(notes_of(scene), "");
+  EXPECT_EQ(notes_of(scene).find("[strength] changes nothing here"), std::string::npos);
 }
 
 TEST(IdleNotes, FrictionNeedsTheTermOfHolding) {
@@ -49,7 +72,7 @@ TEST(IdleNotes, FrictionNeedsTheTermOfHolding) {
   EXPECT_NE(notes_of(scene).find("[robust] friction changes no score here, since the scene has no [tilts]"), std::string::npos);
   scene.robust->friction = 0;
   scene.robust->roll = 0.1;
-  EXPECT_EQ(notes_of(scene), "");
+  EXPECT_EQ(notes_of(scene).find("[robust]"), std::string::npos);
 }
 
 TEST(IdleNotes, AzimuthNeedsAVesselThatIsNotRound) {
@@ -80,6 +103,7 @@ TEST_F(IdleNotesRun, ASweepSaysThem) {
   const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_NE(outcome.notes.find("wholehand: note: [robust] changes nothing here"), std::string::npos) << outcome.notes;
+  EXPECT_NE(outcome.out.find("\nnot judged: without [table]"), std::string::npos) << outcome.out;
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "tests/support/fake_backend.h"
 
 namespace wholehand {
@@ -46,6 +49,33 @@ TEST(Tally, TellsWhyGripsAreImplausible) {
             "too deep), 0 antipodal");
   counts.through_table = counts.self_overlap = counts.only_deep = 0;
   EXPECT_EQ(counts_line(counts, true, 1), "9 of 10 grips feasible (1 misses); of these 8 implausible, 0 antipodal");
+}
+
+TEST(Tally, CountsGripsThatDoNotHoldAndKeepsTheNearestToIt) {
+  const std::uint32_t fails = STATUS_PLAUSIBLE | STATUS_NOT_HELD;
+  const std::vector<std::uint32_t> status{fails, 0, fails, fails, fails};
+  constexpr double NONE = std::numeric_limits<double>::infinity(), NOT_THERE = std::numeric_limits<double>::quiet_NaN();
+  Scene scene = fake_scene();
+  scene.strength.emplace();
+  const FieldSet fields = make_field_set({FIELD_STATUS, FIELD_WORST_EFFORT, FIELD_FRICTION_NEEDED}, scene);
+  const auto least_of = [&](const std::vector<double>& efforts, const std::vector<double>& frictions) {
+    std::vector<double> reals(5 * static_cast<std::size_t>(fields.real_planes), 0);
+    std::copy(efforts.begin(), efforts.end(), reals.begin() + 5 * fields.plane[FIELD_WORST_EFFORT]);
+    std::copy(frictions.begin(), frictions.end(), reals.begin() + 5 * fields.plane[FIELD_FRICTION_NEEDED]);
+    GripCounts counts, before;
+    before.least_bad = {NONE, 3, 2};
+    count_grips({0, 10, 5, 5, nullptr, reals.data(), status.data()}, fields, counts);
+    EXPECT_EQ(counts.not_held, 4u);
+    EXPECT_TRUE(counts.none_holds());
+    EXPECT_NE(counts_line(counts, true, 1).find("1 implausible (1 only too deep), 4 not held, 0 antipodal"), std::string::npos);
+    counts += before;
+    return counts.least_bad.grip;
+  };
+  EXPECT_EQ(least_of({3, NOT_THERE, 2, 1.5, NONE}, {1, NOT_THERE, 1, 1, 1}), 13u);
+  EXPECT_EQ(least_of({NONE, NOT_THERE, NONE, NONE, NONE}, {4, NOT_THERE, 2, 2, NONE}), 12u) << "by the friction, then the first";
+  EXPECT_EQ(least_of({NONE, NOT_THERE, NONE, NONE, NONE}, {4, NOT_THERE, 5, 6, NONE}), 2u) << "the one of before";
+  EXPECT_FALSE(GripCounts().least_bad.is_known());
+  EXPECT_FALSE(GripCounts().none_holds());
 }
 
 TEST(Tally, WithoutStatusOnlyTheNumberIsKnown) {

@@ -62,5 +62,12 @@ TEST(Progress, ALogGetsNothingOfWorkThatEndsSoon) {
 
 TEST(Progress, NobodyGetsNothing) { EXPECT_EQ(written(ProgressSink::none, {{0.6, 1}, {30, 50}}), ""); }
 
+TEST(Progress, LongWorkIsAnnounced) {
+  testing::internal::CaptureStderr();
+  announce_time("comparing", 4.9);
+  announce_time("comparing", 51);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "wholehand: comparing takes about 51 s\n");
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -29,7 +29,9 @@ TEST(Readable, NumbersFromAThousandOnHaveCommas) {
   EXPECT_EQ(fixed_text(0.12345, 5), "0.12345") << "not behind the point";
   EXPECT_EQ(plain_text(1000), "1,000");
   EXPECT_EQ(plain_text(4277.3, 4), "4,277");
-  EXPECT_EQ(plain_text(1.5e6), "1.5e+06");
+  EXPECT_EQ(plain_text(1.5e6), "1,500,000");
+  EXPECT_EQ(plain_text(80123.4, 4), "80,120");
+  EXPECT_EQ(plain_text(-2.5e17), "-2.5e+17");
   EXPECT_EQ(plain_text(-2500), "-2,500");
 }
 

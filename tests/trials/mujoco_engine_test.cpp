@@ -121,7 +121,7 @@ class MujocoEngine : public testing::Test {
     const StateResult state = evaluator_->state(one.vessel, one.grip, result, evaluator_->liquid(one.vessel, one.fill, 0), 0);
     const core_f64::Wrench load =
         core_f64::wrench_at(to_vec3(state.center_of_mass), core_f64::Vec3(0, -state.mass * scene_.gravity, 0));
-    const core_f64::HandStrength hand = core_f64::load_strength(scene_, contacts);
+    const core_f64::HandStrength hand = core_f64::load_strength(scene_, result);
     return core_f64::EffortSolver(contacts, hand, core_f64::contacts_center(contacts)).solve(load).effort;
   }
 };

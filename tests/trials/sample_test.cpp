@@ -158,7 +158,7 @@ TEST(TrialSample, DeepGripsAreThoseTheCoreFindsDeep) {
   const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
   const std::atomic<bool> stop = false;
   const TrialOptions options;
-  const auto eligible = eligible_by_core(scene, plan, core, 0, options, stop);
+  const auto eligible = plausible_by_core(scene, plan, core, 0, options, stop);
   const PartedByDepth parts = parted_by_depth(scene, plan, core, 0, eligible, options, stop);
   EXPECT_EQ(parts.usual.size() + parts.deep.size(), eligible.size());
   EXPECT_GT(parts.usual.size(), 3u);

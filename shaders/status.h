@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What the bits of a status decide, in C++ and GLSL alike.
+#ifndef WHOLEHAND_STATUS_H
+#define WHOLEHAND_STATUS_H
+
+#ifdef __cplusplus
+#include <cstdint>
+
+#include "shaders/layout.h"
+
+namespace wholehand {
+#define STATUS_QUESTION constexpr bool
+#define STATUS_WORD std::uint32_t
+#else
+#define STATUS_QUESTION bool
+#define STATUS_WORD uint
+#endif
+
+// Feasible, nowhere too deep, and above the table: efforts are computed of these grips.
+STATUS_QUESTION is_plausible(STATUS_WORD status) {
+  return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) == STATUS_PLAUSIBLE;
+}
+
+// Whether the grip may be one of the best: plausible, and it holds as far as efforts are known.
+STATUS_QUESTION is_eligible(STATUS_WORD status) { return is_plausible(status) && (status & STATUS_NOT_HELD) == 0; }
+
+#undef STATUS_QUESTION
+#undef STATUS_WORD
+#ifdef __cplusplus
+}  // namespace wholehand
+#endif
+
+#endif

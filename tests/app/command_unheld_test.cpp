@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// What the built program says of a canister that nobody can hold, and of one that somebody can.
+// sanitizers: address
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "system/json.h"
+#include "tests/support/files.h"
+#include "tests/support/program.h"
+#include "tests/support/result_reader.h"
+
+namespace wholehand {
+namespace {
+
+class CommandUnheld : public testing::Test {
+ protected:
+  // A canister with walls of `wall_mm` of steel: 20 mm are 5.5 kg, 1 mm is 0.4 kg.
+  void write_scene(const char* wall_mm) {
+    std::ofstream(folder / "a.toml") << "[[vessel]]\nname = \"canister\"\nshape = \"cylinder\"\ndiameter_mm = 75\nheight_mm = 180\n"
+                                        "wall_mm = "
+                                     << wall_mm
+                                     << "\ndensity_kg_m3 = 7800\n[table]\n[strength]\n[liquid]\nfills = [0, 1]\n[grips]\n"
+                                        "height_fraction = { from = 0.3, to = 0.9, count = 4 }\n"
+                                        "roll_deg = { from = -90, to = 0, count = 3 }\n[tilts]\ndeg = [0, 45, 90]\n";
+  }
+  Outcome sweep() { return run("PROGRAM sweep " + (folder / "a.toml") + " --on core -o " + result + " 2>&1"); }
+
+  TemporaryFolder folder;
+  std::string result = folder / "a.nc";
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(CommandUnheld, WhereNoGripHoldsOneLineSaysWhatFails) {
+  write_scene("20");
+  const Outcome swept = sweep();
+  ASSERT_EQ(swept.code, 0) << swept.output;
+  const auto plausible = read_values(result, "plausible"), not_held = read_values(result, "not_held");
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < not_held.size(); ++i) {
+    count += not_held[i] == 1 ? 1 : 0;
+    EXPECT_EQ(not_held[i] == 1, plausible[i] == 1) << i;
+  }
+  EXPECT_GT(count, 3u);
+  EXPECT_TRUE(has(swept.output, ", " + std::to_string(count) + " not held, ")) << swept.output;
+  EXPECT_TRUE(has(swept.output, "\ncanister: no grip holds it: the strength of the hand fails first. Nearest to holding is grip "))
+      << swept.output;
+  EXPECT_TRUE(has(swept.output, " times the strength")) << swept.output;
+  EXPECT_TRUE(has(swept.output, "; `wholehand rank " + result + " --least-bad` lists such grips\n")) << swept.output;
+  EXPECT_FALSE(has(swept.output, "\n  rank  score")) << "nothing ranks as good";
+  const std::string list = file_text(folder / "a.best.csv");
+  EXPECT_EQ(list.find('\n'), list.size() - 1) << list;
+
+  const Outcome ranked = run("PROGRAM rank " + result + " 2>&1");
+  EXPECT_TRUE(has(ranked.output, std::to_string(count) + " grips are feasible and plausible; of these " + std::to_string(count) +
+                                     " not held\n  no grip holds; --least-bad lists those that are nearest to it\n"))
+      << ranked.output;
+  const Outcome least_bad = run("PROGRAM rank " + result + " --least-bad --best 3 -o " + (folder / "l.csv") + " 2>&1");
+  ASSERT_EQ(least_bad.code, 0) << least_bad.output;
+  EXPECT_TRUE(has(least_bad.output, "\n     1  0.000")) << least_bad.output;
+  const Outcome grip = run("PROGRAM grip " + result + " --vessel canister --rank 1 --list " + (folder / "l.csv"));
+  EXPECT_TRUE(has(grip.output, ": the grip does not hold\n")) << grip.output;
+  const auto json =
+      parse_json(run("PROGRAM grip " + result + " --vessel canister --rank 1 --json --list " + (folder / "l.csv")).output);
+  EXPECT_EQ(json["not_held"], true);
+  EXPECT_EQ(json["plausible"], true);
+  EXPECT_EQ(json["score"], 0);
+  EXPECT_LT(json["held_margin"], 1);
+  EXPECT_NEAR(json["held_margin"].get<double>() * json["worst_effort"].get<double>(), 1, 1e-12);
+  ASSERT_EQ(run("PROGRAM report " + result + " -o " + (folder / "p.html") + " 2>&1").code, 0);
+  const std::string page = file_text(folder / "p.html");
+  EXPECT_TRUE(has(page, "No grip holds it: the strength of the hand fails first."));
+  EXPECT_TRUE(has(page, "no grip is feasible and plausible and holds"));
+}
+
+TEST_F(CommandUnheld, WhereSomeHoldTheListSaysByHowMuch) {
+  write_scene("1");
+  const Outcome swept = sweep();
+  ASSERT_EQ(swept.code, 0) << swept.output;
+  EXPECT_FALSE(has(swept.output, "no grip holds")) << swept.output;
+  EXPECT_TRUE(has(swept.output, "  effort  margin  push N\n")) << swept.output;
+  std::ifstream file(folder / "a.best.csv");
+  std::string head, row;
+  std::getline(file, head);
+  std::getline(file, row);
+  const auto cell = [&](const std::string& column) {
+    std::vector<std::string> titles, cells;
+    for (const auto& [line, words] : {std::pair{&head, &titles}, {&row, &cells}}) {
+      std::size_t from = 0;
+      for (std::size_t to = 0; to != std::string::npos; from = to + 1) {
+        to = line->find(',', from);
+        words->push_back(line->substr(from, to - from));
+      }
+    }
+    for (std::size_t k = 0; k < titles.size(); ++k)
+      if (titles[k] == column) return std::stod(cells.at(k));
+    ADD_FAILURE() << column << " is not in " << head;
+    return 0.0;
+  };
+  EXPECT_GT(cell("held_margin"), 1);
+  EXPECT_NEAR(cell("held_margin") * cell("worst_effort"), 1, 1e-6);
+  const Outcome own = run("PROGRAM rank " + result + " 2>&1"), least_bad = run("PROGRAM rank " + result + " --least-bad 2>&1");
+  EXPECT_EQ(own.output, least_bad.output) << "a list of grips that hold stays as it is";
+  expect_error("rank " + result + " --where 'not_held_' ", 2, "the nearest is 'not_held'");
+}
+
+TEST_F(CommandUnheld, WithoutStrengthThereIsNoSuchGrip) {
+  ASSERT_EQ(run("PROGRAM sweep small --on core --best 2 -o " + result + " >/dev/null").code, 0);
+  expect_error("rank " + result + " --least-bad", 2, "--least-bad: needs [strength] and [tilts]");
+}
+
+}  // namespace
+}  // namespace wholehand
