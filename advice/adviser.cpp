@@ -57,6 +57,7 @@ Scene advice_scene(const Scene& scene) {
     own.liquid->volumes.clear();
     own.liquid->fills = {0};
   }
+  own.arm.reset();  // in a session the vessel moves, and nobody knows where the shoulder is
   if (own.table) own.table->clearance -= TABLE_LOWERED * own.hand.scale;
   return own;
 }

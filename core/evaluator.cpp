@@ -104,6 +104,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
       entry.vessel.limits = hand_.limits;
       entry.vessel.on_table = scene.table.has_value();
       if (scene.table) entry.vessel.table_top = Real(wholehand::table_top(scene, data));
+      entry.vessel.arm = load_arm(scene, data);
       entry.force = load_force(scene, data);
       entries_.push_back(std::move(entry));
       fill_states(entries_.size() - 1);
@@ -146,6 +147,12 @@ class CoreEvaluator final : public wholehand::Evaluator {
     result.bone_stretch = answer.bone_stretch;
     result.through_table = (answer.status & STATUS_THROUGH_TABLE) != 0;
     if (scene_.table) result.table_depth = answer.table_depth;
+    result.beyond_wrist = (answer.status & STATUS_BEYOND_WRIST) != 0;
+    if (scene_.arm) {
+      result.wrist_share = answer.wrist.share;
+      result.wrist_angles = {static_cast<double>(answer.wrist.flexion), static_cast<double>(answer.wrist.deviation),
+                             static_cast<double>(answer.wrist.pronation)};
+    }
     result.self_overlap = (answer.status & STATUS_SELF_OVERLAP) != 0;
     if (hand_.between > 0) result.self_depth = answer.self_depth;
   }
@@ -201,8 +208,9 @@ class CoreEvaluator final : public wholehand::Evaluator {
       largest.add(score.fills.back());
     }
     if (has_effort_ && !largest.effort) largest.effort = std::numeric_limits<Real>::infinity();
-    const ScoredHand hand{result.used_mask, result.touch_mask, Real(result.phalanx_depth), Real(result.palm_depth),
-                          Real(result.closure)};
+    const ScoredHand hand{result.used_mask,           result.touch_mask,
+                          Real(result.phalanx_depth), Real(result.palm_depth),
+                          Real(result.closure),       scene_.arm ? std::optional(Real(result.wrist_share)) : std::nullopt};
     const auto terms = states_.score_terms(hand, largest, entry.force.max);
     score.terms = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5]};
     score.not_held = is_not_held(result.plausible, largest);
@@ -344,6 +352,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     row.put(FIELD_BONE_STRETCH, 0, answer.bone_stretch);
     row.put(FIELD_TABLE_DEPTH, 0, answer.table_depth);
     row.put(FIELD_SELF_DEPTH, 0, answer.self_depth);
+    row.put(FIELD_WRIST_SHARE, 0, answer.wrist.share);
     put_points(row, FIELD_JOINTS, answer.joints.data(), JOINTS);
     put_points(row, FIELD_POSED, answer.posed.data(), JOINTS);
     put_points(row, FIELD_PROXIES, answer.proxies.data(), JOINTS);
@@ -472,7 +481,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   void put_score(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer, LargestForces largest) const {
-    const ScoredHand hand{answer.used_mask, answer.touch_mask, answer.phalanx_depth, answer.palm_depth, answer.closing.closure};
+    const ScoredHand hand{answer.used_mask,  answer.touch_mask,      answer.phalanx_depth,
+                          answer.palm_depth, answer.closing.closure, scene_.arm ? std::optional(answer.wrist.share) : std::nullopt};
     const auto terms = states_.score_terms(hand, largest, entry.force.max);
     for (int k = 0; k < 6; ++k) row.put(FIELD_TERMS, k, terms[k]);
     const std::uint32_t status = answer.status | (is_not_held(is_plausible(answer), largest) ? STATUS_NOT_HELD : 0u);

@@ -37,6 +37,7 @@ struct Field {
   bool of_table = false;     // only in a scene with a table
   bool of_between = false;   // only of a hand with spheres between its joints
   bool of_strength = false;  // only in a scene with strengths and tilts, and of plausible grips
+  bool of_arm = false;       // only in a scene with an arm
 
   // Whether it is points or vectors of the vessel frame, which a left hand mirrors.
   bool is_vector() const { return shape == FieldShape::vector || shape == FieldShape::joint_vectors; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One grip through kernels 3, 4, 5 and 8: the core's way of putting the leaf functions together. The shaders put the same leaves together
+// One grip through kernels 3, 4, 5, 8 and 11: the core's way of putting the leaf functions together. The shaders put the same leaves together
 // in shaders/grip.comp, streamed.
 #pragma once
 
@@ -8,6 +8,7 @@
 
 #include "core/closure.h"
 #include "core/projection.h"
+#include "core/wrist.h"
 
 namespace CORE_NS {
 
@@ -28,10 +29,11 @@ struct GripAnswer {
   Real phalanx_depth = 0, palm_depth = 0, bone_stretch = 0;
   Real table_depth = 0;   // where the vessel is on a table
   Real self_depth = 0;    // of a hand with spheres between its joints
+  Wrist wrist;            // in a scene with an arm
   int advance_steps = 0;  // of the longest stage of a finger (pose articulated)
 };
 
-// Kernels 5, 4 and, of a hand with spheres between its joints or on a table, 8 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
+// Kernels 5, 4 and, of a hand with spheres between its joints or on a table, 8, and with an arm 11 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
 void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
                GripAnswer& answer);
 // How deep the phalanges of two digits lie in each other, m: the largest overlap of any two bones, less than 0 where all are apart. `scale`: of

@@ -141,6 +141,25 @@ void use_lattice(Vessel& vessel, Lattice lattice) {
   vessel.lid = -1;
 }
 
+Arm load_arm(const wholehand::Scene& scene, const wholehand::VesselData& data) {
+  Arm arm;
+  if (!scene.arm) return arm;
+  const wholehand::ArmData& from = *scene.arm;
+  arm.azimuths = wholehand::arm_azimuths(scene, data);
+  arm.shoulder = to_vec3<Real>(wholehand::mirrored(wholehand::shoulder_place(scene, data), scene.hand.handedness));
+  arm.upper_arm = Real(from.upper_arm);
+  arm.forearm = Real(from.forearm);
+  arm.wrist_radius = Real(from.wrist_radius);
+  arm.elbow_radius = Real(from.elbow_radius);
+  arm.flexion = Real(from.flexion);
+  arm.extension = Real(from.extension);
+  arm.ulnar = Real(from.ulnar);
+  arm.radial = Real(from.radial);
+  arm.pronation = Real(from.pronation);
+  arm.supination = Real(from.supination);
+  return arm;
+}
+
 ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data) {
   ForceScale scale;
   scale.gravity = Real(scene.gravity);

@@ -29,6 +29,9 @@ Lattice load_lattice(const wholehand::PreparedLattice& prepared);
 // Puts the lattice in the outline's place: no lid, and the distance is the lattice's.
 void use_lattice(Vessel& vessel, Lattice lattice);
 
+// The arm of who takes a vessel; without azimuths where the scene has none.
+Arm load_arm(const wholehand::Scene& scene, const wholehand::VesselData& data);
+
 // The scene's force constants for a vessel; `reference` is filled by the caller.
 ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data);
 

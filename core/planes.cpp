@@ -35,6 +35,7 @@ int field_planes(int field, const Scene& scene) {
   if (field < REAL_FIELDS && field_row(field).of_table && !scene.table) return 0;
   if (field < REAL_FIELDS && field_row(field).of_between && scene.hand.between == 0) return 0;
   if (field < REAL_FIELDS && field_row(field).of_strength && !has_effort(scene)) return 0;
+  if (field < REAL_FIELDS && field_row(field).of_arm && !scene.arm) return 0;
   return field_planes(field, scene_fills(scene), scene.tilts.size());
 }
 
@@ -43,7 +44,7 @@ namespace {
 // What must be computed for a score, and for any force.
 const std::vector<int> SCORE_NEEDS{FIELD_STATUS,        FIELD_TOUCH_MASK,   FIELD_USED_MASK,  FIELD_CLOSURE,
                                    FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH,   FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD,
-                                   FIELD_MIDPOINT,      FIELD_WORST_EFFORT, FIELD_GAP};
+                                   FIELD_MIDPOINT,      FIELD_WORST_EFFORT, FIELD_GAP,        FIELD_WRIST_SHARE};
 
 }  // namespace
 
@@ -105,6 +106,7 @@ GripResult decode_grip(const PlaneChunk& chunk, const FieldSet& fields, std::siz
   result.antipodal = (result.status & STATUS_ANTIPODAL) != 0;
   result.grazing = (result.status & STATUS_GRAZING) != 0;
   result.through_table = (result.status & STATUS_THROUGH_TABLE) != 0;
+  result.beyond_wrist = (result.status & STATUS_BEYOND_WRIST) != 0;
   result.contact_angles = {real(FIELD_CONTACT_ANGLES, 0), real(FIELD_CONTACT_ANGLES, 1)};
   result.closure = real(FIELD_CLOSURE);
   result.gap = real(FIELD_GAP);
@@ -125,6 +127,7 @@ GripResult decode_grip(const PlaneChunk& chunk, const FieldSet& fields, std::siz
   result.self_overlap = (result.status & STATUS_SELF_OVERLAP) != 0;
   if (fields.has(FIELD_SELF_DEPTH)) result.self_depth = real(FIELD_SELF_DEPTH);
   if (fields.has(FIELD_TABLE_DEPTH)) result.table_depth = real(FIELD_TABLE_DEPTH);
+  if (fields.has(FIELD_WRIST_SHARE)) result.wrist_share = real(FIELD_WRIST_SHARE);
   return result;
 }
 

@@ -21,7 +21,7 @@ int field_planes(int field, std::size_t fills, std::size_t tilts);
 // Whether efforts are computed: in a scene with strengths and tilts.
 bool has_effort(const Scene& scene);
 
-// The same in a scene; 0 too for a field of the table or of efforts where there is none.
+// The same in a scene; 0 too for a field of the table, of efforts or of the arm where there is none.
 int field_planes(int field, const Scene& scene);
 
 // Which fields are computed and where. Kept fields come first, so that reading back is a prefix; scratch fields follow: they are

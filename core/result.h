@@ -30,11 +30,12 @@ using PosedHand = std::array<Triple, JOINT_COUNT>;  // vessel frame, m
 // Fields exist up to the reason: gap and midpoint from too_wide on, everything else only where the reason is none.
 struct GripResult {
   Reason reason = Reason::none;
-  bool plausible = false;                  // not deeper than the depth limit, and not through the table
+  bool plausible = false;                  // not deeper than the depth limit, not through the table, and not beyond the wrist
   bool antipodal = false;                  // both contact angles within atan(mu)
   bool grazing = false;                    // a contact normal within 1 degree of perpendicular to the thumb-index line
   bool self_overlap = false;               // two fingers lie deeper in each other than the depth limit
   bool through_table = false;              // the hand, posed or open, reaches below the table and its clearance
+  bool beyond_wrist = false;               // no arm reaches the hand within the ranges of its wrist and forearm
   std::array<double, 2> contact_angles{};  // thumb, index: between outward normal and line, rad
   double closure = 0;
   double gap = 0;  // m
@@ -54,6 +55,9 @@ struct GripResult {
   double self_depth =
       std::numeric_limits<double>::quiet_NaN();  // m, of two fingers in each other; NaN without spheres between the joints
   double table_depth = std::numeric_limits<double>::quiet_NaN();  // m, more than 0: through_table; NaN without a table
+  double wrist_share = std::numeric_limits<double>::quiet_NaN();  // of a range, more than 1: beyond_wrist; NaN without an arm
+  // Flexion, ulnar deviation and pronation of the wrist at that share, rad, of the core alone.
+  std::array<double, 3> wrist_angles{wrist_share, wrist_share, wrist_share};
   // Iterations, of the core alone (a device does not tell): of the longer trace of a tip, and of a finger's longest stage.
   int trace_steps = 0, advance_steps = 0;
 };

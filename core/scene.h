@@ -159,6 +159,8 @@ struct VesselData {
   std::vector<double> fills;  // of the scene's liquid, fractions of this vessel's capacity; empty where those of LiquidData hold
 
   bool has_cavity() const { return !inner.empty() || wall > 0; }
+  // Of a body of revolution about its axis in mass as well as in shape.
+  bool is_symmetric() const { return !mesh && (!mass || (center_of_mass[0] == 0 && center_of_mass[2] == 0)); }
 };
 
 struct LiquidData {
@@ -227,6 +229,19 @@ struct TableData {
   double clearance = 2e-3;  // m, that the hand must keep above it
 };
 
+// The arm of a person who sits in front of a vessel, and how far the wrist goes from where hand and forearm are in line and the thumb is
+// up. docs/people.md has the sources.
+struct ArmData {
+  Triple shoulder{0.2, 0.35, 0.4};                    // from the vessel's base: to the right, up and to the person, m
+  double upper_arm = 0.315, forearm = 0.247;          // m
+  double wrist_radius = 26e-3, elbow_radius = 45e-3;  // m
+  double flexion = radians(76), extension = radians(75);
+  double radial = radians(22), ulnar = radians(36);
+  double pronation = radians(76), supination = radians(82);
+
+  bool operator==(const ArmData&) const = default;
+};
+
 // How far a person grips from where the plan says: standard deviations, and how many such deviations of each of the best grips are scored.
 struct RobustData {
   double height = 0, offset = 0;                // m
@@ -278,6 +293,7 @@ struct Scene {
   ScoreWeights score;
   OutputData output;
   std::optional<TableData> table;
+  std::optional<ArmData> arm;
   std::optional<RobustData> robust;  // absent: no robust scores
   PeopleData people;                 // for what draws people
   LiveData live;

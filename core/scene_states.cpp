@@ -31,7 +31,7 @@ std::array<Real, 6> SceneStates::score_terms(const ScoredHand& hand, LargestForc
   return {fingers_term(std::popcount(hand.used_mask)),
           contacts_term(std::popcount(hand.touch_mask)),
           depth_term(hand.phalanx_depth, hand.palm_depth),
-          posture_term(hand.closure),
+          hand.wrist_share ? wrist_term(posture_term(hand.closure), *hand.wrist_share) : posture_term(hand.closure),
           has_forces ? force_term(largest.feedback, max) : Real(0),
           largest.effort ? effort_term(*largest.effort)
           : has_forces   ? hold_term(largest.hold, Real(scene_.force.grip_strength))

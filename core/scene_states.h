@@ -52,6 +52,7 @@ struct LargestForces {
 struct ScoredHand {
   std::uint32_t used_mask = 0, touch_mask = 0;
   Real phalanx_depth = 0, palm_depth = 0, closure = 0;
+  std::optional<Real> wrist_share;  // in a scene with an arm
 };
 
 class SceneStates {

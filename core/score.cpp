@@ -10,6 +10,7 @@ namespace CORE_NS {
 //   fingers   fingers used / 5                    contacts   points touching / 24
 //   depth     1 - min(1, deepest / 10 mm)         posture    1 - |2 c - 1|
 //   force     1 - largest feedback / F_max        hold       min(1, grip strength / largest hold force)
+// In a scene with an arm the posture term is the mean of that and 1 - min(1, share of the wrist's range).
 // In a scene with efforts the hold term is 1 / (1 + worst effort), and the score of a grip that does not hold is 0.
 // Degenerate: an F_max of 0 gives the force term 0; an infinite hold force gives the hold term 0.
 Real fingers_term(int fingers_used) { return Real(fingers_used) / Real(FINGERS); }
@@ -21,6 +22,8 @@ Real depth_term(Real phalanx_depth, Real palm_depth) {
 }
 
 Real posture_term(Real closure) { return Real(1) - std::abs(Real(2) * closure - Real(1)); }
+
+Real wrist_term(Real posture, Real wrist_share) { return Real(0.5) * (posture + Real(1) - std::min(Real(1), wrist_share)); }
 
 Real force_term(Real largest_feedback, Real max) { return max > 0 ? Real(1) - largest_feedback / max : Real(0); }
 

@@ -13,6 +13,8 @@ Real contacts_term(int points_touching);
 Real depth_term(Real phalanx_depth, Real palm_depth);
 // 1 - |2 c - 1|.
 Real posture_term(Real closure);
+// The same in a scene with an arm: its mean with 1 - min(1, share of the wrist's range).
+Real wrist_term(Real posture, Real wrist_share);
 // 1 - largest feedback force over all states / F_max, N; 0 where F_max is 0.
 Real force_term(Real largest_feedback, Real max);
 // min(1, grip strength / largest hold force over all states), N; 0 where the hold force is infinite.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/arm.h"
 #include "core/real.h"
 
 namespace CORE_NS {
@@ -50,6 +51,7 @@ struct Vessel {
   std::vector<Real> lip_capacity;  // m3 at whole degrees 0..180; empty where the scene has no liquid
   bool on_table = false;           // the scene has a table
   Real table_top = 0;              // its height and the clearance
+  Arm arm;                         // of who takes it
 };
 
 // The nearest element's number and squared distance, as the search carries them; the squared distance of the nearest one that is

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How near is touching, how deep is inside, and how low is through the table.
+// How near is touching, how deep is inside, how low is through the table, and where the shoulder is.
 #pragma once
 
 #include <algorithm>
 
 #include "core/scene.h"
+#include "shaders/layout.h"
 
 namespace wholehand {
 
@@ -19,5 +20,15 @@ inline double judged_depth_limit(const HandData& hand) { return std::max(hand.de
 
 // The height in the vessel frame that the hand's skin must stay above, m. Only of a scene with a table.
 inline double table_top(const Scene& scene, const VesselData& vessel) { return vessel.base + scene.table->clearance; }
+
+// The shoulder in the vessel frame, m. Only of a scene with an arm.
+inline Triple shoulder_place(const Scene& scene, const VesselData& vessel) {
+  const Triple& shoulder = scene.arm->shoulder;
+  return {shoulder[0], vessel.base + shoulder[1], shoulder[2]};
+}
+// Azimuths at which the holder may take a vessel: one that is the same from all sides from any, another as it stands; 0 without an arm.
+inline int arm_azimuths(const Scene& scene, const VesselData& vessel) {
+  return !scene.arm ? 0 : vessel.is_symmetric() ? ARM_AZIMUTHS : 1;
+}
 
 }  // namespace wholehand

@@ -26,4 +26,6 @@ Real angle_between(Vec3 a, Vec3 b) {
   return acute ? angle : Real(2) * HALF_PI - angle;
 }
 
+Real direction_angle(Real y, Real x) { return std::atan2(y, x); }
+
 }  // namespace CORE_NS

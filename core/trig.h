@@ -15,5 +15,7 @@ void sine_cosine(Real angle, Real& sine_out, Real& cosine_out);
 Real arc_cosine(Real x);
 // Angle between two unit vectors in [0, pi], rad; accurate near 0 and pi, where an arc cosine of their product is not.
 Real angle_between(Vec3 a, Vec3 b);
+// Angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0).
+Real direction_angle(Real y, Real x);
 
 }  // namespace CORE_NS

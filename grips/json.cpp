@@ -152,6 +152,11 @@ std::string grip_json(const GripReport& report) {
     json["bone_stretch_m"] = result.bone_stretch;
     json["table_depth_m"] = finite_or_null(result.table_depth);
     json["self_depth_m"] = finite_or_null(result.self_depth);
+    json["wrist_share"] = finite_or_null(result.wrist_share);
+    if (!std::isnan(result.wrist_share)) {
+      json["beyond_wrist"] = result.beyond_wrist;
+      json["wrist_rad"] = result.wrist_angles;
+    }
     json["states"] = Json::array();
     for (std::size_t k = 0; k < report.answer.states.size(); ++k) {
       json["states"].push_back(state_json(report, report.answer.states[k]));

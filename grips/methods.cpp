@@ -200,6 +200,11 @@ GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) 
             GripFindings answer;
             GripPlanes planes = run_one(*backend, vessel, grip);
             answer.result = decode_grip(planes.chunk, planes.fields, 0);
+            if (scene.arm) {  // a device keeps the share alone
+              GripResult on_core;
+              make_core_evaluator(scene)->grip(vessel, grip, on_core);
+              answer.result.wrist_angles = on_core.wrist_angles;
+            }
             answer.is_core_double = false;
             if (answer.result.reason != Reason::none) return answer;
             answer.score = score_of(planes, scene);

@@ -50,6 +50,11 @@ std::string finger_list(std::uint32_t bits) {
   return list.empty() ? "none" : list;
 }
 
+// "flexion 12.3 deg".
+std::string wrist_motion(const GripReport& report, double angle, const char* above, const char* below) {
+  return fmt::format("{} {} deg", angle >= 0 ? above : below, known(report, degrees(std::abs(angle)), 3));
+}
+
 void write_closing(std::string& out, const GripReport& report) {
   const GripResult& r = report.answer.result;
   const bool is_feasible = r.reason == Reason::none;
@@ -65,7 +70,8 @@ void write_closing(std::string& out, const GripReport& report) {
                    yes_no(r.antipodal), r.grazing ? ", grazing" : "");
   append_formatted(out, "  plausible      {}: phalanges {} deep, palm {}{}\n", yes_no(r.plausible),
                    millimetres(report, r.phalanx_depth), millimetres(report, r.palm_depth),
-                   r.through_table ? "; the hand goes through the table" : "");
+                   fmt::format("{}{}", r.through_table ? "; the hand goes through the table" : "",
+                               r.beyond_wrist ? "; no arm reaches it within the ranges of its wrist" : ""));
   if (!std::isnan(r.table_depth)) {
     append_formatted(out, "  table          {} {} the table and its clearance\n", millimetres(report, std::abs(r.table_depth)),
                      r.through_table ? "below" : "above");
@@ -74,6 +80,13 @@ void write_closing(std::string& out, const GripReport& report) {
     append_formatted(out, "  fingers        {} {}{}\n", millimetres(report, std::abs(r.self_depth)),
                      r.self_depth > 0 ? "in each other" : "apart from each other at least",
                      r.self_overlap ? ": deeper than the depth limit" : "");
+  }
+  if (!std::isnan(r.wrist_share)) {
+    append_formatted(out, "  wrist          {}, {}, {}: {} % of a range{}\n",
+                     wrist_motion(report, r.wrist_angles[0], "flexion", "extension"),
+                     wrist_motion(report, r.wrist_angles[1], "ulnar", "radial"),
+                     wrist_motion(report, r.wrist_angles[2], "pronation", "supination"), known(report, 100 * r.wrist_share, 3),
+                     r.beyond_wrist ? ", beyond it" : "");
   }
   append_formatted(out, "  bone stretch   {}\n", millimetres(report, r.bone_stretch));
   append_formatted(out, "  fingers used   {}\n", finger_list(r.used_mask));

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/parallel.h"
+#include "core/touch.h"
 #include "host/run_once.h"
 #include "host/turns.h"
 
@@ -244,7 +245,8 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   VesselOnDevice& vessel = vessels[v];
   const bool is_looped = !from.lattice && vessel.outline_source == OUTLINE_BUFFER;
   const bool has_proxies = fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH);
-  const GripLoops loops{is_looped ? from.outline_count : 0, scene.hand.between, has_proxies};
+  const int azimuths = arm_azimuths(scene, scene.vessels[v]);
+  const GripLoops loops{is_looped ? from.outline_count : 0, scene.hand.between, has_proxies, azimuths};
   const DeviceSteps steps = device_steps(on.info(), options.evaluator, loops);
   // without a status, no one learns of which grips the steps were too few
   if (steps.are_few && (from.outline_count > MAX_OUTLINE || most_steps(loops) < 1 || !fields.has(FIELD_STATUS))) return;
@@ -256,6 +258,7 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   constants.push_back({CONST_SDF_KIND, std::int32_t(from.lattice ? SDF_LATTICE : SDF_OUTLINE)});
   constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(from.outline_count)});
   if (scene.table) constants.push_back({CONST_TABLE, std::int32_t(1)});
+  if (azimuths > 0) constants.push_back({CONST_ARM, std::int32_t(azimuths)});
   if (scene.hand.between > 0) constants.push_back({CONST_BETWEEN, std::int32_t(scene.hand.between)});
   if (from.halves) constants.push_back({CONST_LATTICE_BITS, std::int32_t(16)});
   if (has_efforts_) constants.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});

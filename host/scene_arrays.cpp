@@ -88,6 +88,22 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
     p.tip_radii = scene.strength->by_opening ? scene.hand.scale * tip_radii(scene.hand) : 0;
   }
   p.table_top = scene.table ? table_top(scene, vessel) : 0;
+  if (scene.arm) {
+    const Triple shoulder = mirrored(shoulder_place(scene, vessel), scene.hand.handedness);
+    p.shoulder_x = shoulder[0];
+    p.shoulder_y = shoulder[1];
+    p.shoulder_z = shoulder[2];
+    p.upper_arm = scene.arm->upper_arm;
+    p.forearm = scene.arm->forearm;
+    p.wrist_radius = scene.arm->wrist_radius;
+    p.elbow_radius = scene.arm->elbow_radius;
+    p.flexion = scene.arm->flexion;
+    p.extension = scene.arm->extension;
+    p.ulnar = scene.arm->ulnar;
+    p.radial = scene.arm->radial;
+    p.pronation = scene.arm->pronation;
+    p.supination = scene.arm->supination;
+  }
   p.pour_sense = scene.liquid && scene.liquid->pour == Pour::towards ? -1 : 1;
   const auto weights = effective_weights(scene);
   p.weight_fingers = weights[0];

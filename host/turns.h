@@ -22,6 +22,7 @@ struct GripLoops {
   int looped_elements = 0;  // of an outline that is not unrolled; 0: unrolled, or a lattice
   int between = 0;          // spheres on a bone
   bool proxies = false;
+  int azimuths = 0;  // at which the wrist is judged
 };
 
 constexpr std::int64_t grip_turns(const GripSteps& steps, const GripLoops& loops) {
@@ -34,7 +35,7 @@ constexpr std::int64_t grip_turns(const GripSteps& steps, const GripLoops& loops
   const std::int64_t between = loops.between > 0 ? loop_turns(4 * loops.between, 3 * distance + 2) + loop_turns(5) : 0;
   const std::int64_t overlap = loops.between > 0 ? loop_turns(PHALANGES - 3, loop_turns(PHALANGES - 2, loop_turns(2))) : 0;
   return loop_turns(2, loop_turns(steps.trace, distance)) + loop_turns(GAP_STEPS) + 3 * rest +
-         loop_turns(FINGERS, examine + between) + overlap + loop_turns(JOINTS);
+         loop_turns(FINGERS, examine + between) + overlap + loop_turns(loops.azimuths, loop_turns(ARM_RAISES)) + loop_turns(JOINTS);
 }
 
 // The most steps, the same of a trace and a stage, with which a grip stays within the budget; below 1 where there are none.
@@ -42,7 +43,7 @@ constexpr int most_steps(const GripLoops& loops) {
   const std::int64_t none = grip_turns({0, 0}, loops), each = grip_turns({1, 1}, loops) - none;
   return static_cast<int>(std::min<std::int64_t>((TURN_BUDGET - none) / each, TRACE_STEPS));
 }
-static_assert(grip_turns({}, {0, MOST_BETWEEN, true}) <= TURN_BUDGET);
+static_assert(grip_turns({}, {0, MOST_BETWEEN, true, ARM_AZIMUTHS}) <= TURN_BUDGET);
 
 // ---- lip and liquid ----
 // Lanes of a vector have their liquid in different ones of a piece's five parts, or stand upright.

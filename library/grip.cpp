@@ -58,6 +58,12 @@ wh_grip_result result_of(const GripResult& grip, const GripScore& score) noexcep
   const ScoreTerms& terms = score.terms;
   const double all[6]{terms.fingers, terms.contacts, terms.depth, terms.posture, terms.force, terms.hold};
   for (int k = 0; k < 6; ++k) out.score_terms[k] = all[k];
+  const bool has_wrist = is_feasible && !std::isnan(grip.wrist_share);
+  out.wrist_share = has_wrist ? grip.wrist_share : none;
+  out.wrist_flexion = has_wrist ? grip.wrist_angles[0] : none;
+  out.wrist_deviation = has_wrist ? grip.wrist_angles[1] : none;
+  out.wrist_pronation = has_wrist ? grip.wrist_angles[2] : none;
+  out.is_beyond_wrist = grip.beyond_wrist;
   return out;
 }
 

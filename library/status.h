@@ -41,6 +41,8 @@ wh_status guarded(const Work& work) noexcept {
 // The size that a struct had in the first header of this WH_ABI. When a struct grows at its end, its size before is written here.
 template <class Struct>
 inline constexpr std::size_t FIRST_SIZE = sizeof(Struct);
+template <>
+inline constexpr std::size_t FIRST_SIZE<wh_grip_result> = offsetof(wh_grip_result, wrist_share);
 
 // Whether a caller's struct may be as large as it says: at least as in the first header, and not larger than here. A larger one is of
 // a later header, and what it asks for this library does not know. `place` begins the line of a failure.

@@ -35,6 +35,7 @@ constexpr StatusPart STATUS_PARTS[] = {
     {"self_overlap", STATUS_SELF_OVERLAP, 14},
     {"unsettled_mask", 0x1Fu << STATUS_UNSETTLED_SHIFT, STATUS_UNSETTLED_SHIFT},
     {"not_held", STATUS_NOT_HELD, 22},
+    {"beyond_wrist", STATUS_BEYOND_WRIST, 23},
 };
 // Variables that are a field's own word.
 constexpr const char* WORD_VARIABLES[] = {"used_mask", "touch_mask", "projected_tip_mask", "projected_finger_mask",

@@ -136,9 +136,10 @@ std::string status_of(const Side& side, std::size_t vessel, std::uint64_t grip) 
   }
   if (is("not_held", 1)) return "not held";
   if (!is("plausible", 0)) return "not listed";
-  return is("through_table", 1)  ? "implausible: through the table"
-         : is("self_overlap", 1) ? "implausible: fingers in each other"
-                                 : "implausible";
+  return is("beyond_wrist", 1)    ? "implausible: beyond the wrist"
+         : is("through_table", 1) ? "implausible: through the table"
+         : is("self_overlap", 1)  ? "implausible: fingers in each other"
+                                  : "implausible";
 }
 
 // Lines of a scene's text without blank lines and comments, each after the header of its table; that of a vessel with its name.
@@ -213,6 +214,13 @@ std::string strength_text(const std::optional<StrengthData>& strength) {
   return joined(digits, ", ") + " N";
 }
 
+std::string arm_text(const std::optional<ArmData>& arm) {
+  if (!arm) return "none";
+  std::vector<std::string> place;
+  for (const double coordinate : arm->shoulder) place.push_back(plain_text(coordinate * 1e3));
+  return "shoulder at " + joined(place, ", ") + " mm";
+}
+
 // How both judge: what differs, and first of all whether scores follow one rule. Whether anything differs.
 bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   const SweepOrigin &from_a = a.result.origin(), &from_b = b.result.origin();
@@ -238,6 +246,7 @@ bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   const auto precision = [](const SweepOrigin& from) { return from.precision == Precision::single ? "float" : "double"; };
   add("hand", hand_a == hand_b, hand(hand_a), hand(hand_b), true);
   add("strength", a.scene.strength == b.scene.strength, strength_text(a.scene.strength), strength_text(b.scene.strength), true);
+  add("arm", a.scene.arm == b.scene.arm, arm_text(a.scene.arm), arm_text(b.scene.arm), true);
   add("weights", effective_weights(a.scene) == effective_weights(b.scene), weights_text(a.scene), weights_text(b.scene), true);
   add("gate", has_effort(a.scene) == has_effort(b.scene), gate(a), gate(b), true);
   add("robust settings", a.scene.robust == b.scene.robust, robust(a.scene), robust(b.scene), true);
@@ -248,7 +257,7 @@ bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   add("version", from_a.version == from_b.version, from_a.version, from_b.version, false);
   if (!rules.empty()) part.sentences.push_back(fmt::format("Scores are not of one rule: other {}.", joined(rules, ", other ")));
   if (table.rows.empty()) {
-    part.sentences.emplace_back("Hand, strength, weights, gate, robust settings, device, precision and version are the same.");
+    part.sentences.emplace_back("Hand, strength, arm, weights, gate, robust settings, device, precision and version are the same.");
   } else {
     part.tables.push_back(std::move(table));
   }

@@ -229,38 +229,44 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
   if (blocked) wanted.push_back({blocked, 0});
   // kept on request alone: what is implausible is told apart where all is known that may make it so
   const Variable *table = source.result.find("through_table"), *overlap = source.result.find("self_overlap");
-  const bool knows_parts = (table || !source.scene.table) && (overlap || source.scene.hand.between == 0);
+  const Variable* wrist = source.result.find("beyond_wrist");
+  const bool knows_parts =
+      (table || !source.scene.table) && (overlap || source.scene.hand.between == 0) && (wrist || !source.scene.arm);
   const std::size_t table_at = wanted.size();
   if (table) wanted.push_back({table, 0});
   const std::size_t overlap_at = wanted.size();
   if (overlap) wanted.push_back({overlap, 0});
+  const std::size_t wrist_at = wanted.size();
+  if (wrist) wanted.push_back({wrist, 0});
   const Variable *not_held = source.result.find("not_held"), *effort = effort_variable(source);
   const std::size_t not_held_at = wanted.size();
   if (not_held) wanted.push_back({not_held, 0});
   const std::size_t effort_at = wanted.size();
   if (effort) wanted.push_back({effort, 0});
-  read_columns(
-      source, vessel, wanted, [&](std::uint64_t first, std::size_t count, const std::vector<std::vector<double>>& columns) {
-        counts.grips += count;
-        for (std::size_t i = 0; i < count; ++i) {
-          const double why = columns[0][i];
-          if (!(why >= 0 && why < static_cast<double>(counts.by_reason.size()))) continue;
-          ++counts.by_reason[static_cast<std::size_t>(why)];
-          if (why != 0) continue;
-          if (columns[1][i] == 0) {
-            const bool is_through = table && columns[table_at][i] == 1, is_overlap = overlap && columns[overlap_at][i] == 1;
-            ++counts.implausible;
-            counts.through_table += knows_parts && is_through ? 1 : 0;
-            counts.self_overlap += knows_parts && is_overlap ? 1 : 0;
-            counts.only_deep += knows_parts && !is_through && !is_overlap ? 1 : 0;
-          }
-          counts.not_held += not_held && columns[not_held_at][i] == 1 ? 1 : 0;
-          if (effort && columns[effort_at][i] >= 0)
-            counts.least_bad = std::min(counts.least_bad, {columns[effort_at][i], LeastBad::ENDLESS, first + i});
-          counts.antipodal += columns[2][i] == 1 ? 1 : 0;
-          counts.blocked += blocked && columns[3][i] > 0 ? 1 : 0;
-        }
-      });
+  read_columns(source, vessel, wanted,
+               [&](std::uint64_t first, std::size_t count, const std::vector<std::vector<double>>& columns) {
+                 counts.grips += count;
+                 for (std::size_t i = 0; i < count; ++i) {
+                   const double why = columns[0][i];
+                   if (!(why >= 0 && why < static_cast<double>(counts.by_reason.size()))) continue;
+                   ++counts.by_reason[static_cast<std::size_t>(why)];
+                   if (why != 0) continue;
+                   if (columns[1][i] == 0) {
+                     const bool is_through = table && columns[table_at][i] == 1,
+                                is_overlap = overlap && columns[overlap_at][i] == 1, is_beyond = wrist && columns[wrist_at][i] == 1;
+                     ++counts.implausible;
+                     counts.through_table += knows_parts && is_through ? 1 : 0;
+                     counts.self_overlap += knows_parts && is_overlap ? 1 : 0;
+                     counts.beyond_wrist += knows_parts && is_beyond ? 1 : 0;
+                     counts.only_deep += knows_parts && !is_through && !is_overlap && !is_beyond ? 1 : 0;
+                   }
+                   counts.not_held += not_held && columns[not_held_at][i] == 1 ? 1 : 0;
+                   if (effort && columns[effort_at][i] >= 0)
+                     counts.least_bad = std::min(counts.least_bad, {columns[effort_at][i], LeastBad::ENDLESS, first + i});
+                   counts.antipodal += columns[2][i] == 1 ? 1 : 0;
+                   counts.blocked += blocked && columns[3][i] > 0 ? 1 : 0;
+                 }
+               });
   return true;
 }
 

@@ -65,7 +65,7 @@ void write_contents(MarkupWriter& html, const Scene& scene) {
   html.close().close();
 }
 
-void write_words(MarkupWriter& html, bool has_table, bool has_efforts) {
+void write_words(MarkupWriter& html, const Scene& scene, bool has_efforts) {
   html.open("section", {{"aria-labelledby", "words"}}).element("h2", "The words", {{"id", "words"}}).open("dl");
   const auto word = [&html](const char* name, const char* meaning) {
     html.open("div").element("dt", name).element("dd", meaning).close();
@@ -78,10 +78,11 @@ void write_words(MarkupWriter& html, bool has_table, bool has_efforts) {
   word("obliquity", "angle of the thumb-index line to the horizontal; above 0 the index finger is higher than the thumb");
   word("feasible", "both tips find the vessel, at a gap that the hand can make");
   word("implausible",
-       has_table
-           ? "a point or a bone of the hand would be deeper in the vessel, or a finger in another, than the scene allows, or the "
-             "hand would go through the table"
-           : "a point or a bone of the hand would be deeper in the vessel, or a finger in another, than the scene allows");
+       fmt::format("a point or a bone of the hand would be deeper in the vessel, or a finger in another, than the scene "
+                   "allows{}{}",
+                   scene.table ? ", or the hand would go through the table" : "",
+                   scene.arm ? ", or no arm would bring the hand there within the ranges of its wrist" : "")
+           .c_str());
   word("antipodal", "both contacts lie within the friction cone");
   word("fingers, points", "number of fingers used, of 5; number of points of the hand that touch, of 24");
   word("depth", "how deep the deepest point of the hand or its bones is inside the vessel");
@@ -129,7 +130,7 @@ class Page {
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) write_vessel(v);
     const bool has_efforts = tells_efforts(scene_);
     if (has_efforts) write_protocols(html_);
-    write_words(html_, scene_.table.has_value(), has_efforts);
+    write_words(html_, scene_, has_efforts);
     html_.close();
     html_.element("footer", fmt::format("Written by wholehand {} from {}.", version(),
                                         source_.result.path().substr(source_.result.path().rfind('/') + 1)));

@@ -73,8 +73,15 @@ std::string hand_text(const Scene& scene) {
                                                  : "rigged: the fingers are not brought to the vessel";
   const std::string table =
       scene.table ? fmt::format("; it must stay {} mm above the table", plain_number(scene.table->clearance * 1e3)) : "";
-  return fmt::format("{}, scale {}; pose {}{}", scene.hand.handedness == Handedness::right ? "right" : "left",
-                     plain_number(scene.hand.scale), pose, table);
+  std::string arm;
+  if (scene.arm) {
+    const Triple& shoulder = scene.arm->shoulder;
+    arm = fmt::format("; the shoulder is {} mm to the {} of the vessel's base, {} mm above it and {} mm in front of it",
+                      plain_number(std::abs(shoulder[0]) * 1e3), shoulder[0] < 0 ? "left" : "right",
+                      plain_number(shoulder[1] * 1e3), plain_number(shoulder[2] * 1e3));
+  }
+  return fmt::format("{}, scale {}; pose {}{}{}", scene.hand.handedness == Handedness::right ? "right" : "left",
+                     plain_number(scene.hand.scale), pose, table, arm);
 }
 
 std::string force_text(const Scene& scene) {
@@ -191,12 +198,15 @@ std::vector<std::string> left_out(const ReportSource& source) {
     sentences.emplace_back("The effort of the whole hand: [strength] says efforts = false.");
   if (!scene.liquid) sentences.emplace_back("The liquid: the scene has no liquid.");
   if (!scene.table) sentences.emplace_back("The table: the scene has no table, so a hand may reach below the base of a vessel.");
+  if (!scene.arm)
+    sentences.emplace_back("The arm: the scene has no arm, so a hand may be where no wrist and no forearm of a person bring it.");
   if (any([](const VesselData& v) { return v.surface == Surface::solid && v.wall > 0; }))
     sentences.emplace_back("The inner wall: for the fingers the vessels are solid.");
   std::size_t possible = 0;
   std::vector<std::string> missing;
   for (const Variable& variable : variable_catalogue()) {
     if (variable.need == Need::table && !scene.table) continue;
+    if (variable.need == Need::arm && !scene.arm) continue;
     ++possible;
     if (!source.result.find(variable.name)) missing.emplace_back(variable.name);
   }

@@ -56,6 +56,10 @@ void read_output(const SceneTable& root, OutputData& output);
 // Vessels have been read: each reaches above the clearance.
 void read_tabletop(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TableData>& tabletop);
 
+// ---- arm.cpp ----
+// [hand] has been read: without a word the shoulder is on the side of the hand.
+void read_arm(const SceneTable& root, Handedness handedness, std::optional<ArmData>& arm);
+
 // ---- robust.cpp ----
 void read_robust(const SceneTable& root, std::optional<RobustData>& robust);
 

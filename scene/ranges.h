@@ -100,6 +100,10 @@ constexpr IntegerRange SEED{0, INT64_MAX};
 
 constexpr Quantity TABLE_CLEARANCE{0, 100, Unit::mm};
 
+constexpr Quantity ARM_LENGTH{10, 5000, Unit::mm};
+constexpr Quantity ARM_RADIUS{1, 500, Unit::mm};
+constexpr Quantity RANGE_OF_MOTION{1, 180, Unit::deg};  // of wrist and forearm, one way
+
 constexpr Quantity LENGTH_DEVIATION{0, 100, Unit::mm};
 constexpr Quantity ANGLE_DEVIATION{0, 90, Unit::deg};
 constexpr Quantity FRICTION_DEVIATION{0, 1};

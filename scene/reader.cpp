@@ -63,6 +63,7 @@ void read_scene(const SceneTable& root, const StrengthData& strength, Scene& sce
   read_score(root, !scene.tilts.empty(), scene.score);
   read_output(root, scene.output);
   read_tabletop(root, scene.vessels, scene.table);
+  read_arm(root, scene.hand.handedness, scene.arm);
   read_robust(root, scene.robust);
   read_people(root, scene.people);
   read_live(root, scene.live);
@@ -93,7 +94,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const SceneDef
   scene.text = text;
   const SceneTable root(file, table, "the scene",
                         {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "table",
-                         "robust", "people", "live", "device", "task"});
+                         "arm", "robust", "people", "live", "device", "task"});
   scene.score = unnamed.score;
   StrengthData strength;
   strength.by_opening = !unnamed.is_before_0_4;

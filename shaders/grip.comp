@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels 3, 5, 4 and 8 of one grip an invocation, streamed: points are examined as they come, so that no array of 24 points is held.
+// Kernels 3, 5, 4, 8 and 11 of one grip an invocation, streamed: points are examined as they come, so that no array of 24 points is held.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -10,6 +10,7 @@
 #include "planes.glsl"
 #include "projection.glsl"
 #include "table.glsl"
+#include "wrist.glsl"
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
@@ -23,7 +24,7 @@ const bool WANTS_RIGGED = POSE != POSE_ARTICULATED || PLANE_JOINTS >= 0;
 uint grip;
 Real scale;
 uint status, touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
-Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth, self_depth;
+Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth, self_depth, wrist_share;
 Ball chain[JOINTS];  // the posed hand, where it has spheres between its joints
 Vec3 previous_proxy;
 
@@ -108,11 +109,12 @@ void put_whole(Real closure, Real thumb_angle, Real index_angle) {
   put_real(PLANE_BONE_STRETCH, 0, grip, bone_stretch);
   put_real(PLANE_TABLE_DEPTH, 0, grip, table_depth);
   put_real(PLANE_SELF_DEPTH, 0, grip, self_depth);
+  put_real(PLANE_WRIST_SHARE, 0, grip, wrist_share);
 }
 
 // What a grip that is infeasible has not.
 void put_nothing() {
-  phalanx_depth = palm_depth = bone_stretch = table_depth = self_depth = NOT_A_NUMBER;
+  phalanx_depth = palm_depth = bone_stretch = table_depth = self_depth = wrist_share = NOT_A_NUMBER;
   put_whole(NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER);
   for (int j = 0; j < JOINTS; ++j) {
     if (PLANE_JOINTS >= 0) put_point(PLANE_JOINTS, j, grip, Vec3(NOT_A_NUMBER));
@@ -344,6 +346,8 @@ void main() {
   self_depth = BETWEEN > 0 ? digits_overlap() : Real(0);
   if (BETWEEN > 0 && self_depth > HAND_DEPTH_LIMIT) status = (status | STATUS_SELF_OVERLAP) & ~STATUS_PLAUSIBLE;
   if (ON_TABLE && table_depth > Real(0)) status = (status | STATUS_THROUGH_TABLE) & ~STATUS_PLAUSIBLE;
+  wrist_share = HOLDER_AZIMUTHS > 0 ? find_wrist(closing.placement).share : Real(0);
+  if (HOLDER_AZIMUTHS > 0 && wrist_share > Real(1)) status = (status | STATUS_BEYOND_WRIST) & ~STATUS_PLAUSIBLE;
   put_masks();
   put_whole(closing.closure, closing.thumb_angle, closing.index_angle);
 }

@@ -96,6 +96,10 @@
 #define PHALANGES 14  /* two of the thumb, three of each finger */
 #define MOST_BETWEEN 8              // spheres on a bone between its joints
 
+// ---- the arm ----
+#define ARM_AZIMUTHS 24             // at which the holder may take a body of revolution
+#define ARM_RAISES 7                // places of the elbow, from low to the side
+
 // ---- why a grip is not feasible, in the order of decision (status, low 4 bits) ----
 #define REASON_NONE 0
 #define REASON_DEGENERATE 1
@@ -117,6 +121,7 @@
 #define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
 #define STATUS_OUT_OF_TURNS 0x200000 // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
 #define STATUS_NOT_HELD 0x400000    // bit 22: a plausible grip whose worst effort is above 1
+#define STATUS_BEYOND_WRIST 0x800000 // bit 23: no arm reaches the hand within the ranges of its wrist and forearm and above the table
 
 // ---- kinds, as specialization constants ----
 #define POSE_ARTICULATED 0
@@ -168,8 +173,9 @@
   X(EFFORT, 32) \
   X(EFFORT_LOW, 33) \
   X(TIPS_EFFORT, 34) \
-  X(SELF_DEPTH, 35)
-#define REAL_FIELDS 36
+  X(SELF_DEPTH, 35) \
+  X(WRIST_SHARE, 36)
+#define REAL_FIELDS 37
 // Words: uint_out[plane * n + grip], one plane each.
 #define UINT_FIELD_LIST(X) \
   X(STATUS, REAL_FIELDS + 0) \
@@ -277,6 +283,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_OFF_AXIS 10           // of the forces: whether a vessel's own centre of mass lies off its axis, bool
 #define CONST_BARE 11               // .. whether contacts carry no moment (torsion 0), bool
 #define CONST_TOGETHER 12           // .. how many grips an invocation has, 1..
+#define CONST_ARM 13                // of the grips: azimuths at which the holder may take the vessel; 0: the scene has no arm
 #define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: where joints press; -1: not computed
 #define CONST_EFFORT_TASK 21        // of the efforts and reserves: EFFORT_WORST .. EFFORT_FRICTION
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
@@ -326,6 +333,9 @@ struct Parameters {
   Real tip_radii;         // m, of thumb and index finger together, at the scene's scale; 0: strengths are the same at every opening
   Real pour_sense;        // +1 away, -1 towards
   Real table_top;         // m, the table's height and the clearance
+  Real shoulder_x, shoulder_y, shoulder_z;    // vessel frame, m
+  Real upper_arm, forearm, wrist_radius, elbow_radius;                     // m
+  Real flexion, extension, ulnar, radial, pronation, supination;           // ranges, rad
   Real weight_fingers, weight_contacts, weight_depth, weight_posture, weight_force, weight_hold;
 #ifdef __cplusplus
   std::uint32_t

@@ -20,6 +20,7 @@ void main() {
     terms[1] = contacts_term(bitCount(uint_out[uint(PLANE_TOUCH_MASK) * push.stride + grip]));
     terms[2] = depth_term(real_out[uint(PLANE_PHALANX_DEPTH) * push.stride + grip], real_out[uint(PLANE_PALM_DEPTH) * push.stride + grip]);
     terms[3] = posture_term(real_out[uint(PLANE_CLOSURE) * push.stride + grip]);
+    if (PLANE_WRIST_SHARE >= 0) terms[3] = wrist_term(terms[3], real_out[uint(PLANE_WRIST_SHARE) * push.stride + grip]);
     if (PLANE_PEAK_FORCE >= 0) {
       Real largest_feedback = Real(0), largest_hold = Real(0);
       for (uint fill = 0u; fill < scene.fills; ++fill) {

@@ -15,6 +15,8 @@ Real depth_term(Real phalanx_depth, Real palm_depth) {
 
 Real posture_term(Real closure) { return Real(1) - abs(Real(2) * closure - Real(1)); }
 
+Real wrist_term(Real posture, Real wrist_share) { return Real(0.5) * (posture + Real(1) - min(Real(1), wrist_share)); }
+
 Real force_term(Real largest_feedback, Real max) { return max > Real(0) ? Real(1) - largest_feedback / max : Real(0); }
 
 Real hold_term(Real largest_hold, Real grip_strength) {

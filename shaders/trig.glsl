@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Twin of core/trig.cpp: polynomials, since Vulkan promises its own sine only to 2^-11. Argument reduction to [-pi/4, pi/4] with pi/2 in
 // three parts; minimax polynomials there, fitted for this project. Errors in units in the last place of 1 (2^-23, 2^-52), float and double
-// (tests/shaders/parity_leaf_test.cpp): sine and cosine 1 for |angle| <= 16; arc cosine 3; angle_between 4, its arguments' rounding left aside.
+// (tests/shaders/parity_leaf_test.cpp): sine and cosine 1 for |angle| <= 16; arc cosine 3; angle_between 4, its arguments' rounding left aside; direction_angle 4.
 #ifndef TRIG_GLSL
 #define TRIG_GLSL
 
@@ -72,6 +72,16 @@ Real angle_between(Vec3 a, Vec3 b) {
   Real half_chord = min(length(chord) * Real(0.5), Real(1));
   Real angle = Real(2) * (HALF_PI - arc_cosine(half_chord));
   return acute ? angle : Real(2) * HALF_PI - angle;
+}
+
+// The arc sine of the smaller side of the triangle: that of the larger would lose digits.
+Real direction_angle(Real y, Real x) {
+  Real size = sqrt(x * x + y * y);
+  if (!(size > Real(0))) return Real(0);
+  Real arc_sine = HALF_PI - arc_cosine(min(abs(y), abs(x)) / size);
+  Real acute = abs(y) > abs(x) ? HALF_PI - arc_sine : arc_sine;
+  Real angle = x < Real(0) ? Real(2) * HALF_PI - acute : acute;
+  return y < Real(0) ? -angle : angle;
 }
 
 #endif

@@ -63,6 +63,7 @@ Scene bare_scene(const Scene& scene, const std::vector<StudyVessel>& vessels, Po
   bare.strength.reset();
   bare.robust.reset();
   bare.table.reset();  // as in a session
+  bare.arm.reset();
   bare.task.reset();
   bare.tilts.clear();
   bare.until_poured.reset();
@@ -106,6 +107,7 @@ ContactPlan::ContactPlan(const Scene& scene) : scene_(scene), vessels_(study_ves
   alike.scatter = 0;
   mean.pose = Pose::articulated;
   mean.table.reset();
+  mean.arm.reset();
   mean.hand = hand_of(scene.hand, make_person(alike, {}));
   const std::unique_ptr<Evaluator> core = make_core_evaluator(mean);
   for (StudyVessel& vessel : vessels_) plan_vessel(*core, vessel);

@@ -84,6 +84,7 @@ class Explainer {
     force(as_is);
     liquid(as_is);
     table(as_is);
+    arm(as_is);
     body(as_is);
     efforts(as_is);
     robust();
@@ -207,22 +208,31 @@ class Explainer {
 
   // What keeping the hand above the table costs: a saving of a scene without one, and the price of a scene with one. Efforts are left
   // out on both ways: they are of plausible grips, and a table leaves fewer.
-  void table(Measured as_is) {
+  void table(const Measured& as_is) {
+    part(as_is, &Scene::table, "the table", "keeping the hand above a table: the scene has no table", "a table");
+  }
+
+  // The same of the arm.
+  void arm(const Measured& as_is) {
+    part(as_is, &Scene::arm, "the arm", "what the wrist has to do: the scene has no arm", "an arm");
+  }
+
+  template <class Part>
+  void part(Measured as_is, std::optional<Part> Scene::*one, const char* name, const char* lacked, const char* with) {
     Scene other = scene_;
     if (scene_.strength) {
       other.strength.reset();
       as_is = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
     }
-    if (scene_.table) {
-      other.table.reset();
+    if (scene_.*one) {
+      (other.*one).reset();
       const Measured without = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
-      say("  not left out: the table, which costs {} us and {} B per grip{}\n", us(microseconds(as_is) - microseconds(without)),
+      say("  not left out: {}, which costs {} us and {} B per grip{}\n", name, us(microseconds(as_is) - microseconds(without)),
           more_bytes(as_is, without), noise_note(as_is, without));
       return;
     }
-    other.table.emplace();
-    row("keeping the hand above a table: the scene has no table",
-        measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED), as_is, "a table");
+    (other.*one).emplace();
+    row(lacked, measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED), as_is, with);
   }
 
   // The same of the spheres between the joints: with strengths they press too, and the hand rests elsewhere, so that efforts are left out here.

@@ -27,7 +27,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int FORMAT = 6;
+constexpr int FORMAT = 7;
 
 Error unusable(const std::string& path, const std::string& why, const char* remedy = BEGIN_AGAIN) {
   return failure_error(fmt::format("{}: {}; {}", path, why, remedy));
@@ -75,6 +75,7 @@ json to_json(const VesselProgress& vessel) {
           {"blocked", counts.blocked},
           {"through_table", counts.through_table},
           {"self_overlap", counts.self_overlap},
+          {"beyond_wrist", counts.beyond_wrist},
           {"only_deep", counts.only_deep},
           {"not_held", counts.not_held},
           {"least_bad", {counts.least_bad.effort, counts.least_bad.friction, counts.least_bad.grip}},
@@ -102,6 +103,7 @@ VesselProgress vessel_from(const json& text) {
   counts.blocked = text.at("blocked");
   counts.through_table = text.at("through_table");
   counts.self_overlap = text.at("self_overlap");
+  counts.beyond_wrist = text.at("beyond_wrist");
   counts.only_deep = text.at("only_deep");
   counts.not_held = text.at("not_held");
   counts.least_bad = least_bad_from(text.at("least_bad"));
@@ -138,6 +140,7 @@ GripCounts& GripCounts::operator+=(const GripCounts& other) {
   blocked += other.blocked;
   through_table += other.through_table;
   self_overlap += other.self_overlap;
+  beyond_wrist += other.beyond_wrist;
   only_deep += other.only_deep;
   not_held += other.not_held;
   least_bad = std::min(least_bad, other.least_bad);
@@ -211,6 +214,7 @@ std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds
   const GripCounts& counts = vessel.counts;
   for (const auto& [part, what] : {std::pair{counts.through_table, "through the table"},
                                    {counts.self_overlap, "with fingers in each other"},
+                                   {counts.beyond_wrist, "beyond the wrist"},
                                    {counts.only_deep, "only deep"}})
     if (part > counts.implausible) return fmt::format("{} implausible grips and {} {}", counts.implausible, part, what);
   if (counts.implausible > counts.by_reason[0] || counts.not_held > counts.plausible())

@@ -27,11 +27,6 @@ double stored_per_vessel(const Scene& scene) {
   return product;
 }
 
-// A body of revolution about its axis in mass as well as in shape.
-bool is_body_of_revolution(const VesselData& vessel) {
-  return !vessel.mesh && (!vessel.mass || (vessel.center_of_mass[0] == 0 && vessel.center_of_mass[2] == 0));
-}
-
 AxisKind kind_of(const Axis& axis, bool is_sobol) {
   if (axis.values.size() < 2) return AxisKind::number;
   if (!axis.is_range) return AxisKind::list;
@@ -107,7 +102,8 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
   for (const PlanAxis& checked : axes_) {
     if (checked.values.empty()) throw usage_error(fmt::format("{}: [grips] axis {} has no values", scene.file, checked.name));
   }
-  symmetric_ = std::all_of(scene.vessels.begin(), scene.vessels.end(), is_body_of_revolution);
+  symmetric_ =
+      std::all_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.is_symmetric(); });
   const PlanAxis& hands = axes_[PLACE_HAND_SCALE];
   if (hands.values.size() > 1 && hands.values.size() <= MOST_HAND_SCALES && hands.kind != AxisKind::range) {
     for (std::size_t place = 0; place < hands.values.size(); ++place) scale_order_.emplace_back(hands.values[place], place);

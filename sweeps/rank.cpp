@@ -71,6 +71,7 @@ std::string refusal_of(const Variable& variable, const SweepResult& result, cons
   if (result.find(variable.name)) return "";
   if (variable.need == Need::tilts && scene.tilts.empty()) return "needs [tilts], which the scene of this file does not have";
   if (variable.need == Need::table && !scene.table) return "needs [table], which the scene of this file does not have";
+  if (variable.need == Need::arm && !scene.arm) return "needs [arm], which the scene of this file does not have";
   if (variable.need == Need::between && scene.hand.between == 0)
     return "needs [hand] between above 0, which the scene of this file does not have";
   return remedy_for(variable, result, scene);

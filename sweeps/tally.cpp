@@ -27,7 +27,8 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& co
       ++counts.implausible;
       counts.through_table += (status & STATUS_THROUGH_TABLE) != 0;
       counts.self_overlap += (status & STATUS_SELF_OVERLAP) != 0;
-      counts.only_deep += (status & (STATUS_THROUGH_TABLE | STATUS_SELF_OVERLAP)) == 0;
+      counts.beyond_wrist += (status & STATUS_BEYOND_WRIST) != 0;
+      counts.only_deep += (status & (STATUS_THROUGH_TABLE | STATUS_SELF_OVERLAP | STATUS_BEYOND_WRIST)) == 0;
     }
     counts.not_held += (status & STATUS_NOT_HELD) != 0;
     if (is_plausible(status) && is_kept(fields, FIELD_WORST_EFFORT)) {
@@ -49,6 +50,7 @@ std::string implausible_parts(const GripCounts& counts) {
   };
   add(counts.through_table, "through the table");
   add(counts.self_overlap, "with fingers in each other");
+  add(counts.beyond_wrist, "beyond the wrist");
   add(counts.only_deep, "only too deep");
   return parts.empty() ? "" : " (" + parts + ")";
 }

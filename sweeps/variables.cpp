@@ -26,6 +26,7 @@ std::int32_t not_held(std::uint32_t status) { return (status & STATUS_NOT_HELD) 
 std::int32_t antipodal(std::uint32_t status) { return (status & STATUS_ANTIPODAL) != 0; }
 std::int32_t through_table(std::uint32_t status) { return (status & STATUS_THROUGH_TABLE) != 0; }
 std::int32_t self_overlap(std::uint32_t status) { return (status & STATUS_SELF_OVERLAP) != 0; }
+std::int32_t beyond_wrist(std::uint32_t status) { return (status & STATUS_BEYOND_WRIST) != 0; }
 std::int32_t grazing(std::uint32_t status) { return (status & STATUS_GRAZING) != 0; }
 std::int32_t undecided(std::uint32_t status) { return (status & STATUS_CONTACT_UNDECIDED) != 0; }
 std::int32_t blocked(std::uint32_t status) { return static_cast<std::int32_t>((status >> STATUS_BLOCKED_SHIFT) & 0x1F); }
@@ -75,6 +76,7 @@ Variable of_field(const Field& row) {
           : of_tilts       ? Need::tilts
           : row.of_table   ? Need::table
           : row.of_between ? Need::between
+          : row.of_arm     ? Need::arm
                            : Need::nothing,
           nullptr,
           row.absent == FieldAbsent::never};
@@ -149,12 +151,20 @@ std::vector<Variable> make_catalogue() {
       {
           always(byte("reason", "why the grip is infeasible", "none: it is feasible", FIELD_STATUS, reason)),
           byte("plausible",
-               "whether the hand is nowhere deeper than the depth limit, in the vessel or a finger in another, and above the table",
+               "whether the hand is nowhere deeper than the depth limit, in the vessel or a finger in another, above the table, "
+               "and within "
+               "reach of the wrist",
                YES_NO, FIELD_STATUS, plausible),
       });
   add(all, DEFAULT, Need::strength,
       {byte("not_held", "whether a plausible grip takes more than the hand's strength: its worst effort is above 1", YES_NO,
             FIELD_STATUS, not_held)});
+  add(all, DEFAULT, Need::arm,
+      {
+          of_field(FIELD_WRIST_SHARE),
+          byte("beyond_wrist", "whether no arm reaches the hand within the ranges of its wrist, which makes the grip implausible",
+               YES_NO, FIELD_STATUS, beyond_wrist),
+      });
   add(all, DEFAULT, Need::nothing,
       {
           byte("antipodal", "whether both contact angles lie within the friction cone", YES_NO, FIELD_STATUS, antipodal),
@@ -252,6 +262,8 @@ const char* missing_need(Need need, const Scene& scene) {
       return scene.hand.between > 0 ? nullptr : "[hand] between";
     case Need::strength:
       return !scene.strength ? "the efforts of [strength]" : scene.tilts.empty() ? "[tilts]" : nullptr;
+    case Need::arm:
+      return scene.arm ? nullptr : "[arm]";
     case Need::nothing:
       break;
   }

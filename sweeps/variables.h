@@ -15,7 +15,7 @@ namespace wholehand {
 enum class NumberType { real, byte, word };  // real: float or double with the backend's precision; signed 8 and 32 bits
 
 // What a scene must have for a variable to exist.
-enum class Need { nothing, tilts, projection, articulated, table, between, strength };
+enum class Need { nothing, tilts, projection, articulated, table, between, strength, arm };
 
 inline constexpr const char* YES_NO = "1: yes, 0: no";  // meaning of the bytes that are truths
 

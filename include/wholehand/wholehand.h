@@ -173,7 +173,7 @@ typedef struct wh_grip_result {
   size_t size;
   const char* reason; /* why it is not feasible; "": it is. Lives as long as the library */
   int32_t is_feasible;
-  int32_t is_plausible;    /* nowhere deeper than the depth limit, and not through the table */
+  int32_t is_plausible;    /* nowhere deeper than the depth limit, not through the table and not beyond the wrist */
   int32_t is_antipodal;    /* both contact angles are within the friction cone */
   int32_t is_grazing;      /* a contact normal is within 1 degree of perpendicular to the thumb-index line */
   int32_t overlaps_itself; /* two fingers lie deeper in each other than the depth limit */
@@ -194,6 +194,10 @@ typedef struct wh_grip_result {
   double phalanx_depth, palm_depth; /* the deepest of fingers and palm in the glass, at least 0 */
   double score;                     /* 0 to 1; 0 where the grip is not feasible, not plausible or not held */
   double score_terms[6];            /* fingers, contacts, depth, posture, force, hold */
+  double wrist_share;               /* the largest share of a range that the wrist takes; above 1: beyond; NaN without [arm] */
+  double wrist_flexion, wrist_deviation, wrist_pronation; /* there; below 0: extension, radial, supination; NaN without [arm] */
+  int32_t
+      is_beyond_wrist; /* no arm reaches the hand within the ranges of its wrist, so that it is not plausible; 0 without [arm] */
 } wh_grip_result;
 
 WH_API wh_status wh_grip_evaluate(const wh_scene* scene, size_t vessel, const wh_grip* grip, wh_grip_result* result);

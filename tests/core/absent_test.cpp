@@ -19,6 +19,7 @@ namespace {
 struct Absent : testing::Test {
   Absent() : scene(wet_scene({beaker1()}, Pose::articulated)) {
     scene.table.emplace();
+    scene.arm.emplace();
     scene.hand.between = 2;
     fields = all_fields(scene);
     const std::vector<GripInput> grips{{0.055, 0, 0, 0, 0, 1}, {0.055, 0, 0, 0, 0, 0.3}, {0.3, 0, 0, 0, 0, 1}};

@@ -109,8 +109,8 @@ TEST(GripReport, JsonHasEveryFieldInOrder) {
                                                      "closure",        "gap_m",         "midpoint_m",      "joints_m",
                                                      "posed_m",        "separation_m",  "touching",        "proxies_m",
                                                      "projected",      "fingers_used",  "phalanx_depth_m", "palm_depth_m",
-                                                     "bone_stretch_m", "table_depth_m", "self_depth_m",    "states",
-                                                     "score",          "score_terms"}));
+                                                     "bone_stretch_m", "table_depth_m", "self_depth_m",    "wrist_share",
+                                                     "states",         "score",         "score_terms"}));
   EXPECT_EQ(json["vessel"], "glass");
   EXPECT_EQ(json_text(json["grip"]),
             R"({"height_m":0.05,"azimuth_rad":0.1,"obliquity_rad":0.2,"roll_rad":0.3,"offset_m":0.4,"hand_scale":1.1})");
@@ -172,6 +172,28 @@ TEST(GripReport, WhatASceneLacksIsLeftOut) {
   const Json still = parse_ordered_json(grip_json(report_of(plain_scene(true, false), feasible_result())));
   EXPECT_EQ(still["states"].size(), 0u);
   EXPECT_EQ(keys_of(still["score_terms"]), (std::vector<std::string>{"fingers", "contacts", "depth", "posture"}));
+}
+
+TEST(GripReport, SaysWhatTheWristDoes) {
+  GripResult result = feasible_result();
+  EXPECT_TRUE(parse_ordered_json(grip_json(report_of(plain_scene(false, false), result)))["wrist_share"].is_null());
+  EXPECT_EQ(grip_table(report_of(plain_scene(false, false), result)).find("wrist"), std::string::npos);
+  result.wrist_share = 0.5;
+  result.wrist_angles = {radians(-10), radians(18), radians(-20)};
+  const Json json = parse_ordered_json(grip_json(report_of(plain_scene(false, false), result)));
+  EXPECT_EQ(json["wrist_share"], 0.5);
+  EXPECT_EQ(json["beyond_wrist"], false);
+  EXPECT_EQ(json["wrist_rad"][1], radians(18));
+  const std::string within = grip_table(report_of(plain_scene(false, false), result));
+  EXPECT_NE(within.find("  wrist          extension 10.000 deg, ulnar 18.000 deg, supination 20.000 deg: 50.000 % of a range\n"),
+            std::string::npos)
+      << within;
+  result.wrist_share = 1.25;
+  result.beyond_wrist = true;
+  result.plausible = false;
+  const std::string beyond = grip_table(report_of(plain_scene(false, false), result));
+  EXPECT_NE(beyond.find(": 125.000 % of a range, beyond it\n"), std::string::npos) << beyond;
+  EXPECT_NE(beyond.find("deep, palm 2.000 mm; no arm reaches it within the ranges of its wrist\n"), std::string::npos) << beyond;
 }
 
 TEST(GripReport, TellsOfTheTable) {

@@ -99,7 +99,7 @@ TEST(HostSpecialize, WhatIsSwitchedOffIsLeftOut) {
   const auto grip = find_shader("grip", Precision::single, OUTLINE_SPECIALIZED);
   const Words outline = specialized(grip, {{CONST_SDF_KIND, SDF_OUTLINE}, {CONST_OUTLINE_COUNT, 3}});
   EXPECT_LT(outline.size(), grip.size() * 2 / 3);
-  SpecializationBits all{{CONST_SDF_KIND, SDF_LATTICE}, {CONST_TABLE, 1}, {CONST_BETWEEN, 2}, {CONST_CONTACTS, 0}};
+  SpecializationBits all{{CONST_SDF_KIND, SDF_LATTICE}, {CONST_TABLE, 1}, {CONST_BETWEEN, 2}, {CONST_ARM, 24}, {CONST_CONTACTS, 0}};
   for (std::uint32_t f = 0; f < FIELDS; ++f) all[CONST_PLANE + f] = f;
   EXPECT_GT(specialized(grip, all).size(), outline.size());
 }
@@ -176,7 +176,8 @@ TEST(HostSpecialize, EveryShaderStaysSound) {
   for (const EmbeddedShader& shader : embedded_shaders()) {
     const std::string name = std::string(shader.name) + (shader.precision ? ", double" : ", float");
     SpecializationBits all{
-        {CONST_TABLE, 1}, {CONST_BETWEEN, 2}, {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_FRICTION}, {CONST_TOGETHER, 4}};
+        {CONST_TABLE, 1},   {CONST_BETWEEN, 2}, {CONST_ARM, 24}, {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_FRICTION},
+        {CONST_TOGETHER, 4}};
     for (std::uint32_t f = 0; f < FIELDS; ++f) all[CONST_PLANE + f] = f;
     for (const SpecializationBits& bits : {SpecializationBits{}, all, SpecializationBits{{CONST_POSE, POSE_RIGGED}}}) {
       const Words module = specialized(shader.words, bits);

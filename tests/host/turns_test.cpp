@@ -306,6 +306,7 @@ TEST(Turns, GripsEndWithinTheirBounds) {
   Scene scene = scene_of({belly_of_most_elements()});
   scene.hand.between = MOST_BETWEEN;
   scene.table = TableData{};
+  scene.arm = ArmData{};
   const auto grips = sample_grips(scene.vessels[0], 200, 3);
   for (const OutlineSource source : {OUTLINE_SPECIALIZED, OUTLINE_BUFFER})
     for (const double tolerance : {1e-7, 1e-30}) {
@@ -317,7 +318,7 @@ TEST(Turns, GripsEndWithinTheirBounds) {
       options.evaluator.stop_tolerance = tolerance;
       bool counts = false;
       const auto turns = turns_of(scene, make_field_set(wanted, scene), grips, options, counts);
-      expect_bounds(turns, {{"grip", is_looped ? TURN_BUDGET : host::grip_turns({}, {0, MOST_BETWEEN, proxies})},
+      expect_bounds(turns, {{"grip", is_looped ? TURN_BUDGET : host::grip_turns({}, {0, MOST_BETWEEN, proxies, ARM_AZIMUTHS})},
                             {"score", host::score_turns(1)},
                             {"select", host::select_turns(SELECT_LARGEST)}});
       expect_worst(counts, turns.at("grip"), tolerance < 1e-20 ? TRACE_STEPS / 2 : 100, "grip");

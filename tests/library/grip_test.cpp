@@ -57,6 +57,11 @@ void expect_same(const wh_grip_result& c, const GripResult& cpp, const GripScore
   expect_same(c.score, score.score, "score");
   const ScoreTerms& t = score.terms;
   expect_same(c.score_terms, std::array{t.fingers, t.contacts, t.depth, t.posture, t.force, t.hold}, "score_terms");
+  EXPECT_EQ(c.is_beyond_wrist, cpp.beyond_wrist ? 1 : 0);
+  expect_same(c.wrist_share, cpp.wrist_share, "wrist_share");
+  expect_same(c.wrist_flexion, cpp.wrist_angles[0], "wrist_flexion");
+  expect_same(c.wrist_deviation, cpp.wrist_angles[1], "wrist_deviation");
+  expect_same(c.wrist_pronation, cpp.wrist_angles[2], "wrist_pronation");
 }
 
 void expect_same(const wh_grip_state& c, const GripState& cpp, const StateHold& hold) {

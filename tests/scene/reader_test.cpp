@@ -355,6 +355,32 @@ TEST(SceneReader, ReadsRobust) {
   EXPECT_EQ(all.robust->seed, 9u);
 }
 
+TEST(SceneReader, ReadsArm) {
+  EXPECT_FALSE(scene_from(VESSEL).arm);
+  const Scene usual = scene_from("[arm]" + VESSEL);
+  ASSERT_TRUE(usual.arm);
+  EXPECT_EQ(*usual.arm, ArmData());
+  const Scene left = scene_from("[hand]\nhandedness = \"left\"\n[arm]" + VESSEL);
+  EXPECT_EQ(left.arm->shoulder, (Triple{-0.2, 0.35, 0.4})) << "on the side of the hand";
+  const ArmData all = *scene_from(
+                           "[hand]\nhandedness = \"left\"\n[arm]\nshoulder_mm = [1, 2, 3]\nupper_arm_mm = 300\nforearm_mm = 250\n"
+                           "wrist_radius_mm = 25\nelbow_radius_mm = 50\nflexion_deg = 60\nextension_deg = 61\nradial_deg = 20\n"
+                           "ulnar_deg = 30\npronation_deg = 80\nsupination_deg = 81" +
+                           VESSEL)
+                           .arm;
+  EXPECT_EQ(all.shoulder, (Triple{1e-3, 2e-3, 3e-3})) << "as given, whatever the hand";
+  EXPECT_EQ(all.upper_arm, 0.3);
+  EXPECT_EQ(all.forearm, 0.25);
+  EXPECT_EQ(all.wrist_radius, 25e-3);
+  EXPECT_EQ(all.elbow_radius, 50e-3);
+  EXPECT_EQ(all.flexion, radians(60));
+  EXPECT_EQ(all.extension, radians(61));
+  EXPECT_EQ(all.radial, radians(20));
+  EXPECT_EQ(all.ulnar, radians(30));
+  EXPECT_EQ(all.pronation, radians(80));
+  EXPECT_EQ(all.supination, radians(81));
+}
+
 TEST(SceneReader, ReadsSpheresBetweenJoints) {
   EXPECT_EQ(scene_from(VESSEL).hand.between, 2);
   EXPECT_EQ(scene_from("[hand]\nbetween = 0" + VESSEL).hand.between, 0);

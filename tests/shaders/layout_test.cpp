@@ -84,10 +84,11 @@ TEST(Layout, SpecializationConstantsDoNotOverlap) {
 TEST(Layout, StatusBitsDoNotOverlap) {
   const unsigned fingers = (1u << FINGERS) - 1;
   unsigned used = 0;
-  for (const unsigned bits : {unsigned(STATUS_REASON_MASK), unsigned(STATUS_PLAUSIBLE), unsigned(STATUS_ANTIPODAL),
-                              unsigned(STATUS_GRAZING), unsigned(STATUS_PROXY_UNSETTLED), unsigned(STATUS_THROUGH_TABLE),
-                              unsigned(STATUS_SELF_OVERLAP), unsigned(STATUS_CONTACT_UNDECIDED), unsigned(STATUS_OUT_OF_TURNS),
-                              unsigned(STATUS_NOT_HELD), fingers << STATUS_BLOCKED_SHIFT, fingers << STATUS_UNSETTLED_SHIFT}) {
+  for (const unsigned bits :
+       {unsigned(STATUS_REASON_MASK), unsigned(STATUS_PLAUSIBLE), unsigned(STATUS_ANTIPODAL), unsigned(STATUS_GRAZING),
+        unsigned(STATUS_PROXY_UNSETTLED), unsigned(STATUS_THROUGH_TABLE), unsigned(STATUS_SELF_OVERLAP),
+        unsigned(STATUS_CONTACT_UNDECIDED), unsigned(STATUS_OUT_OF_TURNS), unsigned(STATUS_NOT_HELD), unsigned(STATUS_BEYOND_WRIST),
+        fingers << STATUS_BLOCKED_SHIFT, fingers << STATUS_UNSETTLED_SHIFT}) {
     EXPECT_EQ(used & bits, 0u) << std::hex << bits;
     used |= bits;
   }
@@ -152,6 +153,8 @@ Offsets parameter_offsets() {
   OFFSET(friction), OFFSET(torsion), OFFSET(friction_angle), OFFSET(grip_strength);
   OFFSET(thumb_strength), OFFSET(index_strength), OFFSET(middle_strength), OFFSET(ring_strength), OFFSET(little_strength);
   OFFSET(palm_strength), OFFSET(tip_radii), OFFSET(pour_sense), OFFSET(table_top);
+  OFFSET(shoulder_x), OFFSET(shoulder_y), OFFSET(shoulder_z), OFFSET(upper_arm), OFFSET(forearm), OFFSET(wrist_radius);
+  OFFSET(elbow_radius), OFFSET(flexion), OFFSET(extension), OFFSET(ulnar), OFFSET(radial), OFFSET(pronation), OFFSET(supination);
   OFFSET(weight_fingers), OFFSET(weight_contacts), OFFSET(weight_depth), OFFSET(weight_posture), OFFSET(weight_force);
   OFFSET(weight_hold), OFFSET(outline_count), OFFSET(cavity_count), OFFSET(lattice_nx), OFFSET(lattice_ny), OFFSET(lattice_nz);
   OFFSET(fills), OFFSET(tilts), OFFSET(quadrature_count);

@@ -93,6 +93,50 @@ TEST_F(ParityLeaf, CloseFingers) {
     EXPECT_GE(seen[static_cast<std::size_t>(reason)], 20) << "reason " << reason;
 }
 
+// ---- wrist ----
+
+constexpr double FARTHEST = 0.7;  // m: of a shoulder
+
+TEST_F(ParityLeaf, ReachWrist) {
+  Scene scene = three_beakers();
+  scene.arm.emplace();
+  Builder build(85);
+  for (int i = 0; i < 777; ++i) {
+    build.point(0.15).uniform(-FARTHEST, FARTHEST).uniform(0.1, FARTHEST).uniform(-FARTHEST, FARTHEST);
+    const double turn = build.random.uniform(-PI, PI);
+    build.add(std::cos(turn)).add(0).add(std::sin(turn));
+  }
+  compare({"probe_closure", PROBE_REACH_WRIST, 9, repeated("number", 11, 1), {}, 1, 0.8}, build.table, scene);
+}
+
+// One place of the elbow, and the best of all, above a table and without one, of a body of revolution and of another.
+TEST_F(ParityLeaf, Wrist) {
+  Scene scene = vessels_scene();
+  scene.vessels.push_back(lopsided());
+  scene.arm.emplace();
+  for (const bool on_table : {false, true}) {
+    if (on_table) scene.table.emplace();
+    for (const std::size_t v : {std::size_t(0), scene.vessels.size() - 1}) {
+      Builder eased(86 + v), found(96 + v);
+      for (int i = 0; i < 555; ++i) {
+        for (Builder* build : {&eased, &found})
+          build->uniform(0, 1)
+              .uniform(-PI, PI)
+              .uniform(-0.6, 0.6)
+              .uniform(-PI, PI)
+              .uniform(-0.1, 0.1)
+              .uniform(0, 0.2)
+              .uniform(-0.1, 0.1)
+              .uniform(0.8, 1.2);
+        eased.uniform(-0.4, 0.4).uniform(0.2, 0.5).uniform(0.2, 0.5).uniform(-PI, PI).add(i % 7 / 6.0);
+      }
+      compare({"probe_closure", PROBE_EASE_WRIST, 13, together(repeated("angle", 3, PI), repeated("share", 1, 8)), {}, 1, 0.8},
+              eased.table, scene, v);
+      compare({"probe_closure", PROBE_FIND_WRIST, 8, {{"share", 8}}, {}, 1, 0.8}, found.table, scene, v);
+    }
+  }
+}
+
 // ---- projection ----
 
 TEST_F(ParityLeaf, ProjectionPieces) {

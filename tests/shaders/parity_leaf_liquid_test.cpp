@@ -223,9 +223,9 @@ TEST_F(ParityLeaf, Score) {
   Builder build(180);
   for (int i = 0; i < 333; ++i) {
     build.add(i % 6).add(i % 25).uniform(0, 0.02).uniform(0, 0.02).uniform(0, 1).uniform(0, 8).add(i % 9 == 0 ? 0 : 8);
-    build.uniform(0, 90).add(40);
+    build.uniform(0, 90).add(40).uniform(0, 1.5);
   }
-  compare({.shader = "probe_force", .probe = PROBE_SCORE, .inputs = 9, .outputs = repeated("term", 6, 1), .fixed = {0, 1, 6}},
+  compare({.shader = "probe_force", .probe = PROBE_SCORE, .inputs = 10, .outputs = repeated("term", 7, 1), .fixed = {0, 1, 6}},
           build.table, three_beakers());
 }
 

@@ -36,7 +36,7 @@ TEST_F(ParityLeaf, TrigIsWithinItsBounds) {
   for (const Precision precision : precisions()) {
     const double epsilon = precision == Precision::single ? FLT_EPSILON : DBL_EPSILON;
     const LeafProbe probe(*device, scene, 0, precision, OUTLINE_SPECIALIZED);
-    Builder angles(1), cosines(2), pairs(3);
+    Builder angles(1), cosines(2), pairs(3), planar(4);
     for (int i = 0; i <= 64000; ++i) angles.add(-16 + i / 2000.0);
     for (int quarter = -10; quarter <= 10; ++quarter)
       for (const double off : {-1e-3, -1e-6, -1e-9, 0.0, 1e-9, 1e-6, 1e-3}) angles.add(quarter * PI / 4 + off);
@@ -58,11 +58,19 @@ TEST_F(ParityLeaf, TrigIsWithinItsBounds) {
       }
       pairs.vec(a).vec(b);
     }
-    const Table x = rounded(angles.table, precision), y = rounded(cosines.table, precision), ab = rounded(pairs.table, precision);
+    for (int i = 0; i < 10000; ++i) {
+      const double turn = i % 2 == 0 ? planar.random.uniform(-PI, PI)
+                                     : i % 8 * PI / 4 + (i % 3 - 1) * std::pow(10.0, planar.random.uniform(-9, -1));
+      planar.add(std::sin(turn)).add(std::cos(turn));
+    }
+    for (const double end : {0.0, 1.0, -1.0}) planar.add(end).add(0).add(0).add(end);
+    const Table x = rounded(angles.table, precision), y = rounded(cosines.table, precision), ab = rounded(pairs.table, precision),
+                yx = rounded(planar.table, precision);
     const Table sc = probe.run("probe_trig", PROBE_SINE_COSINE, x, x.size(), 1, 2);
     const Table acos = probe.run("probe_trig", PROBE_ARC_COSINE, y, y.size(), 1, 1);
     const Table between = probe.run("probe_trig", PROBE_ANGLE_BETWEEN, ab, ab.size() / 6, 6, 1);
-    TrigErrors sine, cosine, arc, angle;
+    const Table turned = probe.run("probe_trig", PROBE_DIRECTION_ANGLE, yx, yx.size() / 2, 2, 1);
+    TrigErrors sine, cosine, arc, angle, turn;
     for (std::size_t i = 0; i < x.size(); ++i) {
       sine.add(sc[2 * i], std::sin(static_cast<long double>(x[i])), epsilon, x[i]);
       cosine.add(sc[2 * i + 1], std::cos(static_cast<long double>(x[i])), epsilon, x[i]);
@@ -72,6 +80,10 @@ TEST_F(ParityLeaf, TrigIsWithinItsBounds) {
       const double* v = &ab[6 * i];
       const Long3 a{v[0], v[1], v[2]}, b{v[3], v[4], v[5]};
       angle.add(between[i], std::atan2(length(cross(a, b)), dot(a, b)), epsilon, static_cast<double>(i));
+    }
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      const long double exact = std::atan2(static_cast<long double>(yx[2 * i]), static_cast<long double>(yx[2 * i + 1]));
+      turn.add(turned[i], exact, epsilon, static_cast<double>(i));
     }
     const std::string name = precision == Precision::single ? "float" : "double";
     const auto within = [&](const char* function, const TrigErrors& errors, double bound) {
@@ -83,6 +95,7 @@ TEST_F(ParityLeaf, TrigIsWithinItsBounds) {
     within("cosine", cosine, 1);
     within("arc_cosine", arc, 3);
     within("angle_between", angle, 4);
+    within("direction_angle", turn, 4);
   }
 }
 

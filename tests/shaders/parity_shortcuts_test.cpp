@@ -213,6 +213,33 @@ TEST(ParityShortcuts, TheTableLeftOutChangesNothingInTheRest) {
   EXPECT_LT(through, grips.size() - 20);
 }
 
+// The same of the arm, whose share is in the posture term too.
+TEST(ParityShortcuts, TheArmLeftOutChangesNothingInTheRest) {
+  const Scene bare = wet_scene({beaker1()}, Pose::articulated);
+  Scene arm = bare;
+  arm.arm.emplace();
+  const auto grips = grips_of(bare, 0, 200);
+  const auto without = backend_of(bare, all_fields(bare), Precision::single);
+  const auto with = backend_of(arm, all_fields(arm), Precision::single);
+  EXPECT_LT(without->bytes_per_grip(), with->bytes_per_grip());
+  const GatheredPlanes all = gather(*with, 0, grips), fewer = gather(*without, 0, grips);
+  std::vector<int> fields = fields_of(fewer.fields);
+  for (const int field : {FIELD_SCORE, FIELD_STATUS, FIELD_TERMS}) std::erase(fields, field);
+  expect_same_or_close(with->info().is_cpu, arm, Precision::single, grips, all, fewer, whole_fields(fields, bare), "device");
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    EXPECT_EQ(fewer.uint(FIELD_STATUS, i) & STATUS_BEYOND_WRIST, 0u);
+    const double share = all.real(all.fields.plane[FIELD_WRIST_SHARE], i);
+    EXPECT_EQ((all.uint(FIELD_STATUS, i) & STATUS_BEYOND_WRIST) != 0, share > 1);
+    if (!(share > 1)) continue;
+    ++beyond;
+    EXPECT_EQ(all.uint(FIELD_STATUS, i) & STATUS_PLAUSIBLE, 0u);
+    EXPECT_EQ(all.real(all.fields.plane[FIELD_SCORE], i), 0);
+  }
+  EXPECT_GT(beyond, 20u);
+  EXPECT_LT(beyond, grips.size() - 20);
+}
+
 // ---- top-N ----
 
 TEST(ParityShortcuts, BestAreThoseOfTheFullSort) {

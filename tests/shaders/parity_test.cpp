@@ -96,6 +96,18 @@ TEST(Parity, HandsOnATable) {
   expect_parity(scene, "table_paper");
 }
 
+TEST(Parity, HandsOnArms) {
+  Scene scene = wet_scene({beaker1(), lopsided(), vase()}, Pose::articulated, left_hand());
+  scene.table = TableData{5e-3};
+  scene.arm.emplace();
+  scene.arm->shoulder = {-0.15, 0.3, 0.45};
+  expect_parity(scene, "arm");
+  scene = scene_of({ledges()}, Pose::paper, odd_hand());
+  scene.arm.emplace();
+  scene.vessels[0].base = -10e-3;
+  expect_parity(scene, "arm_paper");
+}
+
 TEST(Parity, SpheresBetweenJoints) {
   Scene scene = wet_scene({beaker1(), beaker2(), shell_of(beaker3())}, Pose::articulated);
   scene.hand.between = 2;

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Leaf functions of closure.glsl.
+// Leaf functions of closure.glsl and wrist.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "closure.glsl"
+#include "wrist.glsl"
 #include "probe.glsl"
+
+Placement given_placement() {
+  Real e1_x;
+  return place_hand(given(0), grip_direction(given(1), given(2)), given(3), given3(4), given(7), e1_x);
+}
 
 void main() {
   load_hand();
@@ -46,4 +52,25 @@ void main() {
     answer3(23, closed ? closing.placement.translation : Vec3(0));
     answer(26, closed ? closing.placement.scale : Real(0));
   }
+  if (PROBE == PROBE_REACH_WRIST) {
+    ArmReach reach = reach_wrist(given3(0), given3(3), given3(6));
+    answer3(0, reach.along);
+    answer3(3, reach.low);
+    answer3(6, reach.aside);
+    answer(9, reach.straight);
+    answer(10, reach.bent);
+  }
+  if (PROBE == PROBE_EASE_WRIST) {
+    Placement placement = given_placement();
+    Real s, c;
+    sine_cosine(given(11), s, c);
+    ArmReach reach = reach_wrist(placement.translation, given3(8), Vec3(c, Real(0), s));
+    Wrist best = Wrist(Real(0), Real(0), Real(0), NO_DISTANCE);
+    ease_wrist(placement.rotation, placement.translation, reach, given(12), best);
+    answer(0, best.flexion);
+    answer(1, best.deviation);
+    answer(2, best.pronation);
+    answer(3, best.share);
+  }
+  if (PROBE == PROBE_FIND_WRIST) answer(0, find_wrist(given_placement()).share);
 }

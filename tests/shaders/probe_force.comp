@@ -39,5 +39,6 @@ void main() {
     answer(3, posture_term(given(4)));
     answer(4, force_term(given(5), given(6)));
     answer(5, hold_term(given(7), given(8)));
+    answer(6, wrist_term(posture_term(given(4)), given(9)));
   }
 }

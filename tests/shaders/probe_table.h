@@ -6,9 +6,10 @@
 #define CONST_PROBE 10  // specialization constant: one of these
 
 // probe_trig
-#define PROBE_SINE_COSINE 0    // angle; sine, cosine
-#define PROBE_ARC_COSINE 1     // x; angle
-#define PROBE_ANGLE_BETWEEN 2  // a, b; angle
+#define PROBE_SINE_COSINE 0      // angle; sine, cosine
+#define PROBE_ARC_COSINE 1       // x; angle
+#define PROBE_ANGLE_BETWEEN 2    // a, b; angle
+#define PROBE_DIRECTION_ANGLE 3  // y, x; angle
 // probe_hand
 #define PROBE_TRAJECTORY 10      // closure; angles of the thumb, of a finger
 #define PROBE_FINGER_POINTS 11   // frame, mcp, lengths, angles; pip, dip, tip
@@ -35,6 +36,10 @@
 // stands for some: direction | t_index, t_thumb, gap, midpoint | closure, thumb_angle, index_angle, grazing, rotation, translation,
 // scale
 #define PROBE_CLOSE_FINGERS 32
+#define PROBE_REACH_WRIST 33  // wrist, shoulder, side; along, low, aside, straight, bent
+// closure, azimuth, obliquity, roll, midpoint, scale of the hand, shoulder, turn of the holder, raised; flexion, deviation, pronation, share
+#define PROBE_EASE_WRIST 34
+#define PROBE_FIND_WRIST 35  // closure, azimuth, obliquity, roll, midpoint, scale; share
 // probe_projection
 #define PROBE_CHAIN_SUMS 40  // of three joints; of their segments
 // finger: frame, mcp, lengths, radii; angles, rates, number; sphere, velocity, acceleration, speed, bend, jerk
@@ -67,7 +72,7 @@
 #define PROBE_HOLD_FORCE 84      // mass, gravity, arm, direction, up, friction, torsion; force
 #define PROBE_COUPLING_FORCE 85  // tip, proxy, normal, velocity, stiffness, damping; force
 #define PROBE_STRENGTH_AT 87     // opening; share
-#define PROBE_SCORE 86           // fingers, points, phalanx, palm, closure, feedback, max, hold, strength; terms
+#define PROBE_SCORE 86  // fingers, points, phalanx, palm, closure, feedback, max, hold, strength, wrist; terms, posture with it
 // probe_loop; plant: mass, damping, stiffness; wall: stiffness, damping, period, encoder step, force limit, delay, bilateral
 #define PROBE_PROPAGATOR 90   // plant, time; of place, of speed: place, speed, force
 #define PROBE_ADVANCE 91      // plant, place, speed, force, friction, time; place, speed

@@ -16,4 +16,5 @@ void main() {
   }
   if (PROBE == PROBE_ARC_COSINE) answer(0, arc_cosine(given(0)));
   if (PROBE == PROBE_ANGLE_BETWEEN) answer(0, angle_between(given3(0), given3(3)));
+  if (PROBE == PROBE_DIRECTION_ANGLE) answer(0, direction_angle(given(0), given(1)));
 }

@@ -16,8 +16,8 @@
 namespace {
 
 // The pairs that must exist; others are compared where both files exist.
-const std::vector<std::string> PAIRS = {"hand",  "sdf",   "closure", "contact", "projection", "liquid",
-                                        "force", "score", "trig",    "loop",    "table",      "body"};
+const std::vector<std::string> PAIRS = {"hand",  "sdf",  "closure", "contact", "projection", "liquid", "force",
+                                        "score", "trig", "loop",    "table",   "body",       "wrist"};
 
 // What C++ passes along as its first parameters and GLSL has as buffers or constants.
 const std::set<std::string> CONTEXT = {"hand", "vessel", "quadrature"};

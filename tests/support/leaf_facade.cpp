@@ -25,6 +25,7 @@
 #include "core/table.h"
 #include "core/touch.h"
 #include "core/trig.h"
+#include "core/wrist.h"
 #include "shaders/layout.h"
 #include "tests/shaders/probe_table.h"
 #ifndef MAKE_LEAVES
@@ -189,6 +190,8 @@ struct Answer {
   void put(const LiquidState& value) { put_all(value.volume, value.lean, value.height); }
   void put(const Place& value) { put_all(value.ball, value.velocity, value.acceleration, value.speed, value.bend, value.jerk); }
   void put(const Ball& value) { put_all(value.place, value.radius); }
+  void put(const ArmReach& value) { put_all(value.along, value.low, value.aside, value.straight, value.bent); }
+  void put(const Wrist& value) { put_all(value.flexion, value.deviation, value.pronation, value.share); }
   void put(const Propagator& value) {
     put_all(value.place_place, value.place_speed, value.place_force, value.speed_place, value.speed_speed, value.speed_force);
   }
@@ -245,6 +248,25 @@ std::tuple<Placement, Real, FingerFrame> placed_hand(const Hand& hand, Real clos
   return {placement, e1_x, placed_frame(placement, hand.frame[1])};
 }
 
+Placement placed(const Hand& hand, Real closure, Real azimuth, Real obliquity, Real roll, Vec3 midpoint, Real scale) {
+  Real e1_x = 0;
+  return place_hand(hand, closure, grip_direction(azimuth, obliquity), roll, midpoint, scale, e1_x);
+}
+
+Wrist eased_wrist(const Hand& hand, const Vessel& vessel, Real closure, Real azimuth, Real obliquity, Real roll, Vec3 midpoint,
+                  Real scale, Vec3 shoulder, Real turn, Real raised) {
+  const Placement placement = placed(hand, closure, azimuth, obliquity, roll, midpoint, scale);
+  const ArmReach reach = reach_wrist(vessel, placement.translation, shoulder, Vec3(cosine(turn), 0, sine(turn)));
+  Wrist best;
+  ease_wrist(vessel, placement.rotation, placement.translation, reach, raised, best);
+  return best;
+}
+
+Real least_share(const Hand& hand, const Vessel& vessel, Real closure, Real azimuth, Real obliquity, Real roll, Vec3 midpoint,
+                 Real scale) {
+  return find_wrist(vessel, placed(hand, closure, azimuth, obliquity, roll, midpoint, scale)).share;
+}
+
 Closing close_widened(const Hand& hand, const Vessel& vessel, Grip grip, Real index_more, Real thumb_more) {
   Hand wider = hand;
   wider.radius[1][4] += index_more / (hand.scale * grip.hand_scale);
@@ -287,10 +309,11 @@ std::tuple<Real, Real, Real> forces(Real base, Real range, Real torque, Real ref
   return {normal, opening, feedback_force(normal, opening, max)};
 }
 
-std::tuple<Real, Real, Real, Real, Real, Real> score_terms(int fingers, int points, Real phalanx, Real palm, Real closure,
-                                                           Real feedback, Real max, Real hold, Real strength) {
-  return {fingers_term(fingers), contacts_term(points),     depth_term(phalanx, palm),
-          posture_term(closure), force_term(feedback, max), hold_term(hold, strength)};
+std::tuple<Real, Real, Real, Real, Real, Real, Real> score_terms(int fingers, int points, Real phalanx, Real palm, Real closure,
+                                                                 Real feedback, Real max, Real hold, Real strength, Real wrist) {
+  const Real posture = posture_term(closure);
+  return {fingers_term(fingers),     contacts_term(points),     depth_term(phalanx, palm), posture,
+          force_term(feedback, max), hold_term(hold, strength), wrist_term(posture, wrist)};
 }
 
 Motion advanced(Plant plant, Motion motion, Real force, Real friction, Real time) {
@@ -327,6 +350,7 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_SINE_COSINE, answers_of<sine_cosine>},
     {PROBE_ARC_COSINE, answers_of<arc_cosine>},
     {PROBE_ANGLE_BETWEEN, answers_of<angle_between>},
+    {PROBE_DIRECTION_ANGLE, answers_of<direction_angle>},
     // hand
     {PROBE_TRAJECTORY, answers_of<thumb_angles, finger_angles>},
     {PROBE_FINGER_POINTS, answers_of<finger_points>},
@@ -350,6 +374,10 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_TRACE_TIP, answers_of<trace_along>},
     {PROBE_PLACE_HAND, answers_of<placed_hand>},
     {PROBE_CLOSE_FINGERS, answers_of<close_widened>},
+    // wrist
+    {PROBE_REACH_WRIST, answers_of<reach_wrist>},
+    {PROBE_EASE_WRIST, answers_of<eased_wrist>},
+    {PROBE_FIND_WRIST, answers_of<least_share>},
     // projection
     {PROBE_CHAIN_SUMS, answers_of<chain_sums>},
     {PROBE_WATCHED_PLACE, answers_of<place_of_finger>},
@@ -413,6 +441,7 @@ class CoreLeaves final : public wholehand::Leaves {
     vessel = load_vessel(prepared, data, context_.quadrature, scene.liquid.has_value(), scene.hand.handedness);
     vessel.on_table = scene.table.has_value();
     if (scene.table) vessel.table_top = Real(wholehand::table_top(scene, data));
+    vessel.arm = load_arm(scene, data);
     if (lattice_samples == 0) return;
     const double margin = wholehand::lattice_margin(scene);
     use_lattice(vessel, load_lattice(wholehand::prepare_lattice(prepared, lattice_samples, lattice_bits == 16, margin)));

@@ -168,6 +168,7 @@ std::string natural_scene_text(std::uint64_t seed) {
     text += "[score]\n" + natural_key("hold", draw.between(0.1, 0.6)) + natural_key("depth", draw.between(0.1, 0.7));
   const int vessels = draw.chance(0.6) ? 1 : 2;
   for (int v = 0; v < vessels; ++v) text += natural_vessel(draw, v);
+  if (draw.chance(0.5)) text += "[arm]\n";
   return text;
 }
 

@@ -193,6 +193,13 @@ void add_later_keys(SceneDraw& draw, std::string& text) {
     text += fmt::format("count = {}\nseed = {}\n", 8 + draw.of(20), draw.of(1000));
   }
   if (draw.chance(0.4)) add_key(text, "[hand]", fmt::format("between = {}\n", draw.of(9)));
+  if (draw.chance(0.3)) {
+    text += "[arm]\n";
+    if (draw.chance(0.5))
+      text += fmt::format("shoulder_mm = [{}, {}, {}]\n", draw.of(400) - 200, 100 + draw.of(500), 100 + draw.of(500));
+    for (const char* name : {"flexion_deg", "extension_deg", "radial_deg", "ulnar_deg", "pronation_deg", "supination_deg"})
+      if (draw.chance(0.3)) text += key(name, draw.over(1, 180));
+  }
   if (text.find("[strength]") == std::string::npos) text += "[strength]\nefforts = false\n";
 }
 

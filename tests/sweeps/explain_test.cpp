@@ -98,8 +98,8 @@ TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
   scene.grips.azimuth.values = {0, 0.5, 1};
   for (const char* on : {"core", "vulkan"}) {
     const Explained explained = explain(scene, on, Precision::full);
-    for (const char* lacked : {"projection", "force kernel", "the liquid", "above a table", "2 of 3 azimuths", "inner wall",
-                               "spheres between the joints"})
+    for (const char* lacked : {"projection", "force kernel", "the liquid", "above a table", "what the wrist has to do",
+                               "2 of 3 azimuths", "inner wall", "spheres between the joints"})
       EXPECT_TRUE(explained.find(lacked)) << lacked << "\n" << explained.text;
     EXPECT_EQ(explained.find("from a buffer") != nullptr, std::string(on) == "vulkan") << explained.text;
     // two of three azimuths are two grips more for each that is computed
@@ -143,6 +143,17 @@ TEST(Explain, SaysWhatATableCosts) {
   EXPECT_TRUE(std::regex_search(
       explained.text,
       std::regex("not left out: the table, which costs -?[0-9.]+ us and 8 B per grip( \\(within the noise of these runs\\))?\n")))
+      << explained.text;
+}
+
+TEST(Explain, SaysWhatAnArmCosts) {
+  Scene scene = three_beakers();
+  scene.arm.emplace();
+  const Explained explained = explain(scene, "core");
+  EXPECT_FALSE(explained.find("what the wrist has to do")) << explained.text;
+  EXPECT_TRUE(std::regex_search(
+      explained.text,
+      std::regex("not left out: the arm, which costs -?[0-9.]+ us and 8 B per grip( \\(within the noise of these runs\\))?\n")))
       << explained.text;
 }
 

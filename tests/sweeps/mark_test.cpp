@@ -27,7 +27,7 @@ SweepMark some_mark() {
   vessel.done = (std::uint64_t{1} << 40) + 1;
   vessel.best = {{0.1 + 0.2, 7}, {1e-17, ~std::uint64_t{0}}};
   vessel.stretches = {{0, 5, "ab"}, {5, vessel.done, "cd"}};
-  vessel.counts = {11, {1, 2, 3, 4, 5, 6, 7}, 8, 9, 10, 11, 12, 13, 14, {INFINITY, 1.0 / 11, 15}};
+  vessel.counts = {11, {1, 2, 3, 4, 5, 6, 7}, 8, 9, 10, 11, 12, 15, 13, 14, {INFINITY, 1.0 / 11, 15}};
   vessel.heat_map = {1.0 / 7, NAN, 0};
   vessel.lists = {{{{1.0 / 9, 3}, {0.1, 4}}, Candidate{0.1, 9}, false}, {{}, {}, true}};
   mark.in_place = {{100, 20}, {std::uint64_t{1} << 50, 8}};
@@ -73,6 +73,7 @@ TEST(Mark, ComesBackBitForBit) {
   EXPECT_EQ(a.counts.self_overlap, 12u);
   EXPECT_EQ(a.counts.only_deep, 13u);
   EXPECT_EQ(a.counts.not_held, 14u);
+  EXPECT_EQ(a.counts.beyond_wrist, 15u);
   EXPECT_TRUE(a.counts.least_bad == b.counts.least_bad);
   EXPECT_TRUE(mark.vessels[0].counts.least_bad == LeastBad());
   ASSERT_EQ(a.heat_map.size(), 3u);
@@ -183,6 +184,7 @@ TEST(Mark, WhatNoSweepCanHaveDoneIsRefused) {
     m.vessels[0].counts.implausible = 1;
     m.vessels[0].counts.self_overlap = 2;
   });
+  refused("0 implausible grips and 1 beyond the wrist", [](SweepMark& m) { m.vessels[0].counts.beyond_wrist = 1; });
   refused("0 implausible grips and 1 only deep", [](SweepMark& m) { m.vessels[0].counts.only_deep = 1; });
   refused("4 feasible grips, 3 implausible and 2 not held", [](SweepMark& m) {
     m.vessels[0].counts.implausible = 3;

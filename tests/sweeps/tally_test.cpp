@@ -32,23 +32,25 @@ TEST(Tally, CountsByReasonAndAmongTheFeasible) {
   EXPECT_EQ(counts_line(counts, false, 1), "6 grips");
 }
 
-// Depth is told of where neither of the two others makes a grip implausible; a grip of both counts for both.
+// Depth is counted where none of the three others makes a grip implausible; a grip of several counts for each.
 TEST(Tally, TellsWhyGripsAreImplausible) {
-  const std::uint32_t table = STATUS_THROUGH_TABLE, overlap = STATUS_SELF_OVERLAP;
-  const std::vector<std::uint32_t> status{
-      table, table, table | overlap, overlap, 0, 0, 0, 0, STATUS_PLAUSIBLE, table | REASON_MISSES};
+  const std::uint32_t table = STATUS_THROUGH_TABLE, overlap = STATUS_SELF_OVERLAP, wrist = STATUS_BEYOND_WRIST;
+  const std::vector<std::uint32_t> status{table, table | wrist,    table | overlap,      overlap, 0, 0, 0, 0,
+                                          wrist, STATUS_PLAUSIBLE, table | REASON_MISSES};
   GripCounts counts;
   count_grips({0, 0, status.size(), status.size(), nullptr, nullptr, status.data()}, make_field_set({FIELD_STATUS}, fake_scene()),
               counts);
-  EXPECT_EQ(counts.implausible, 8u);
+  EXPECT_EQ(counts.implausible, 9u);
   EXPECT_EQ(counts.through_table, 3u);
   EXPECT_EQ(counts.self_overlap, 2u);
+  EXPECT_EQ(counts.beyond_wrist, 2u);
   EXPECT_EQ(counts.only_deep, 4u);
-  EXPECT_EQ(counts_line(counts, true, 1),
-            "9 of 10 grips feasible (1 misses); of these 8 implausible (3 through the table, 2 with fingers in each other, 4 only "
-            "too deep), 0 antipodal");
-  counts.through_table = counts.self_overlap = counts.only_deep = 0;
-  EXPECT_EQ(counts_line(counts, true, 1), "9 of 10 grips feasible (1 misses); of these 8 implausible, 0 antipodal");
+  EXPECT_EQ(
+      counts_line(counts, true, 1),
+      "10 of 11 grips feasible (1 misses); of these 9 implausible (3 through the table, 2 with fingers in each other, 2 beyond "
+      "the wrist, 4 only too deep), 0 antipodal");
+  counts.through_table = counts.self_overlap = counts.beyond_wrist = counts.only_deep = 0;
+  EXPECT_EQ(counts_line(counts, true, 1), "10 of 11 grips feasible (1 misses); of these 9 implausible, 0 antipodal");
 }
 
 TEST(Tally, CountsGripsThatDoNotHoldAndKeepsTheNearestToIt) {

@@ -175,6 +175,15 @@ TEST(Variables, WhatTheSceneCannotHaveIsRefused) {
     scene.output.keep.reset();
     EXPECT_FALSE(holds(names(choose_variables(scene)), name)) << "it is kept on request";
   }
+  for (const char* name : {"wrist_share", "beyond_wrist"}) {
+    scene.arm.reset();
+    scene.output.keep = {{name}};
+    EXPECT_NE(refusal(scene).find("needs [arm], which this scene does not have"), std::string::npos) << refusal(scene);
+    scene.output.keep.reset();
+    EXPECT_FALSE(holds(names(choose_variables(scene)), name));
+    scene.arm.emplace();
+    EXPECT_TRUE(holds(names(choose_variables(scene)), name)) << "it is kept by default";
+  }
   for (const char* name : {"self_depth", "self_overlap"}) {
     scene.hand.between = 0;
     scene.output.keep = {{name}};
@@ -204,6 +213,8 @@ TEST(Variables, WordsAreTakenApart) {
   EXPECT_EQ(value("proxy_unsettled", STATUS_PROXY_UNSETTLED), 1);
   EXPECT_EQ(value("through_table", status), 0);
   EXPECT_EQ(value("through_table", status | STATUS_THROUGH_TABLE), 1);
+  EXPECT_EQ(value("beyond_wrist", status), 0);
+  EXPECT_EQ(value("beyond_wrist", status | STATUS_BEYOND_WRIST), 1);
   EXPECT_EQ(value("self_overlap", status), 0);
   EXPECT_EQ(value("self_overlap", status | STATUS_SELF_OVERLAP), 1);
   EXPECT_EQ(value("blocked_mask", status), 0x14);
