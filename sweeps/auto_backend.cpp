@@ -75,7 +75,7 @@ AutoBackend::AutoBackend(const Scene& scene, SweepOptions& options) : options_(o
     if (is_auto_) options_.on = "core";
     return;
   }
-  keeps_times_ = !file_.empty() && !options.explain && !options.resume && options.glb == 0 && !scene.robust;
+  keeps_times_ = !file_.empty() && !options.explain && !options.resume && options.glb == 0;
   if (is_auto_) decide();
 }
 

@@ -76,6 +76,7 @@ SweepTask sweep_task(const Scene& scene, std::uint64_t grips, int threads, const
   task.grips = grips;
   task.has_efforts = has_effort(scene);
   task.has_mesh = std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& v) { return v.mesh.has_value(); });
+  task.is_robust = scene.robust.has_value();
   task.between = scene.hand.between;
   task.states = scene_fills(scene) * scene.tilts.size();
   task.threads = threads;
@@ -84,8 +85,8 @@ SweepTask sweep_task(const Scene& scene, std::uint64_t grips, int threads, const
 }
 
 std::string kind_of(const SweepTask& task) {
-  return fmt::format("{}, {}, {} between, 2^{} states, {} threads, {}", task.has_efforts ? "efforts" : "no efforts",
-                     task.has_mesh ? "mesh" : "outlines", task.between, std::bit_width(task.states), task.threads,
+  return fmt::format("{}, {}, {}{} between, 2^{} states, {} threads, {}", task.has_efforts ? "efforts" : "no efforts",
+                     task.has_mesh ? "mesh" : "outlines", task.is_robust ? "robust, " : "", task.between, std::bit_width(task.states), task.threads,
                      task.precision.empty() ? "usual precision" : task.precision);
 }
 

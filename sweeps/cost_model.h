@@ -15,7 +15,7 @@ namespace wholehand {
 // What of a sweep changes what one grip costs. Of a mesh no more is asked than that there is one.
 struct SweepTask {
   std::uint64_t grips = 0;  // evaluated, of all vessels
-  bool has_efforts = false, has_mesh = false;
+  bool has_efforts = false, has_mesh = false, is_robust = false;
   int between = 0;  // spheres on each bone
   std::size_t states = 0;
   int threads = 1;

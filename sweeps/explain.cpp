@@ -303,7 +303,7 @@ class Explainer {
   void searches() {
     if (is_counting_) return;
     const auto core = make_core_evaluator(scene_);
-    long long grips = 0, states = 0, skipped = 0, pivots = 0;
+    long long grips = 0, states = 0, skipped = 0, pivots = 0, unheld = 0;
     for (std::size_t i = 0; i < sample_.size() && grips < SEARCHED_GRIPS;
          i += std::max<std::size_t>(1, sample_.size() / (8 * SEARCHED_GRIPS))) {
       GripResult result;
@@ -315,12 +315,15 @@ class Explainer {
       states += hold->states;
       skipped += hold->skipped;
       pivots += hold->pivots;
+      unheld += hold->worst > 1 ? 1 : 0;
     }
     if (states == 0) return;
     say("    of {} plausible grips the core's search for the worst effort takes {:.2f} pivots a state; {:.0f} % of the states are "
         "passed by once the worst is known\n",
         grips, static_cast<double>(pivots) / static_cast<double>(states),
         100 * static_cast<double>(skipped) / static_cast<double>(states));
+    say("    the gate reads the worst effort and costs nothing more: {} of these grips are not held, and nothing judges them further\n",
+        unheld);
   }
 
   // Once a sweep, whatever its grips: the listed ones, each with its deviations.

@@ -40,7 +40,7 @@ TEST_F(CommandRank, WithoutOptionsItIsTheSweepsOwnListByteForByte) {
 }
 
 TEST_F(CommandRank, AListIsHandedBack) {
-  ASSERT_EQ(run("PROGRAM rank " + result + " --weights posture=9 --where 'roll_deg < 0' --best 3 -o " + list + " >/dev/null").code,
+  ASSERT_EQ(run("PROGRAM rank " + result + " --rank-by score --where 'roll_deg < 0' --best 3 -o " + list + " >/dev/null").code,
             0);
   const std::string ranked = "PROGRAM grip " + result + " --vessel tumbler --rank 2 --json", by_list = ranked + " --list " + list;
   const Outcome own = run(ranked), listed = run(by_list);

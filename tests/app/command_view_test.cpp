@@ -285,8 +285,10 @@ TEST(ViewCommand, ShowsARecordingAtAnyMoment) {
 TEST(ViewCommand, ShowsTheBestGripsOfASweep) {
   const TemporaryFolder folder;
   const std::string file = folder / "best.nc";
-  const std::string robust = "'[robust]' 'roll_deg = 2' 'count = 8'", scene_file = folder / "robust.toml";
-  ASSERT_EQ(run("{ cat " + find_scene("small") + "; printf '\\n%s\\n' " + robust + "; } > " + scene_file).code, 0);
+  const std::string scene_file = folder / "robust.toml";
+  std::string text = file_text(find_scene("small"));
+  text.replace(text.find("height_mm = 3\n"), std::string("height_mm = 3\n").size(), "count = 8\n");
+  write_file(scene_file, text);
   ASSERT_EQ(run("PROGRAM sweep " + scene_file + " --on core --best 3 -o " + file + " >/dev/null").code, 0);
   const auto heights = read_values(file, "best_height"), rolls = read_values(file, "best_roll"),
              scores = read_values(file, "best_score"), means = read_values(file, "best_robust_mean"),

@@ -711,7 +711,7 @@ class Endings(Job):
         code, out, errors = self.run_ranks(2, path, "--time-limit", "1:2")
         self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
         # what the scene asks to keep is not there
-        code, out, errors = self.run_ranks(3, self.write("keep.toml", SMALL.replace("[strength]", '[output]\nkeep = ["push"]')))
+        code, out, errors = self.run_ranks(3, self.write("keep.toml", SMALL.replace("[strength]", '[strength]\nefforts = false\n\n[output]\nkeep = ["push"]')))
         self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
         # ranks that are told of different results, and a name that no file can have
         mixed = [MPI_PROGRAM, "sweep", path, "--on", "core", "-o"]

@@ -195,7 +195,7 @@ TEST(MeshHints, AnInnerOutlineInAnotherUnitIsNamed) {
 TEST(MeshHints, ASmallInnerOutlineIsRefusedForWhatItDoes) {
   const TemporaryFolder folder;
   VesselData cup;
-  cup.outline = {line_to(40, 0), line_to(40, 100), line_to(37, 100), line_to(37, 3), line_to(0, 3)};
+  cup.outline = {line_to(40, 0), line_to(40, 100), line_to(37, 100), line_to(37, 6), line_to(0, 6)};
   const auto refusal = [&](double floor) {
     const std::string keys =
         fmt::format("inner_outline = [{{ line = [0, {0}] }}, {{ line = [5, {0}] }}, {{ line = [5, {1}] }}]", floor, floor + 15);
@@ -258,10 +258,10 @@ TEST(MeshHints, FollowingARemedyHelps) {
   const std::string far_off = "inner_outline = [{ line = [0, 2] }, { line = [90, 2] }, { line = [90, 98] }]",
                     within = "inner_outline = [{ line = [0, 2] }, { line = [28, 2] }, { line = [28, 98] }]";
   VesselData profile;
-  profile.outline = {line_to(40, 0), line_to(40, 100), line_to(37, 100), line_to(37, 3), line_to(0, 3)};
+  profile.outline = {line_to(40, 0), line_to(40, 100), line_to(37, 100), line_to(37, 6), line_to(0, 6)};
   const TriangleMesh cup = turned_mesh(profile, 64, 2e-3);
   const std::string through = "inner_outline = [{ line = [0, 0] }, { line = [5, 0] }, { line = [5, 15] }]",
-                    hollow = "inner_outline = [{ line = [0, 3] }, { line = [37, 3] }, { line = [37, 100] }]";
+                    hollow = "inner_outline = [{ line = [0, 6] }, { line = [37, 6] }, { line = [37, 100] }]";
   const std::vector<Case> cases{
       {cup, through, "move it where the mesh is hollow", cup, hollow},
       {cup, through, "or make the mesh its hull", box_mesh({-0.04, 0, -0.04}, {0.04, 0.1, 0.04}), through},

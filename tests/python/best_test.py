@@ -131,7 +131,7 @@ class Best(InFolder):
         self.assertTrue((held.not_held == 0).all() and (held.held_margin >= 1).all())
         xr.testing.assert_identical(held, wh.best(light, n=50, least_bad=True))
         light.close()
-        without = self.data_of(HEAVY.replace("[strength]", ""))
+        without = self.data_of(HEAVY.replace("[strength]", "[strength]\nefforts = false\n"))
         self.assertIn("[strength]", str(self.refused(wh.best, without, least_bad=True)))
         without.close()
 

@@ -165,7 +165,7 @@ TEST(WriteEfforts, ALineEndsWithACrossWhereNothingHolds) {
 }
 
 TEST(WriteEfforts, GreatEffortsEndTheChartAndAreSaid) {
-  const SweptScene swept(edited(strong_scene(), "[strength]", "[strength]\nthumb_N = 1\nindex_N = 1"));
+  const SweptScene swept(edited(strong_scene(), "[strength]", "[strength]\nindex_N = 1"));
   const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, swept.best_grip(0));
   const double highest = *std::max_element(efforts.tips.begin(), efforts.tips.end());
   ASSERT_GT(highest, 3);

@@ -84,6 +84,9 @@ TEST(CostModel, ScenesOfAnotherKindAndOtherMachinesDoNotCount) {
   other = task;
   other.states = 300;
   EXPECT_EQ(both(history, other).core.runs, 0);
+  other = task;
+  other.is_robust = true;
+  EXPECT_EQ(both(history, other).core.runs, 0);
   EXPECT_EQ(estimate(history, "there", task, true, guess_core(task)).runs, 0);
   EXPECT_EQ(both(history, task_of(5)).core.runs, 1) << "the number of grips is no kind";
 }

@@ -179,12 +179,18 @@ TEST(Explain, SaysWhatEffortsCost) {
   EXPECT_GT(std::stoi(match[1]), 10);
   EXPECT_GT(std::stod(match[2]), 0);
   EXPECT_LE(std::stoi(match[3]), 100);
+  const int searched = std::stoi(match[1]);
+  ASSERT_TRUE(std::regex_search(explained.text, match, std::regex("the gate .*: ([0-9]+) of these grips are not held")))
+      << explained.text;
+  EXPECT_GE(std::stoi(match[1]), 0);
+  EXPECT_LT(std::stoi(match[1]), searched);
 }
 
 TEST(Explain, SaysWhatRobustScoresCost) {
   Scene scene = three_beakers();
   scene.vessels.resize(2);
   scene.output.best = 7;
+  scene.robust.reset();
   EXPECT_EQ(explain(scene, "core").text.find("robust"), std::string::npos);
   scene.robust.emplace();
   scene.robust->count = 24;

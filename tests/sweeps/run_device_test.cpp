@@ -26,6 +26,7 @@ Scene choosy_beakers() {
   Scene scene = read_scene_file(find_scene("three_beakers"));
   scene.vessels.resize(2);
   scene.strength.reset();  // costs most of the time, and the choice is the same
+  scene.robust.reset();    // the list is that of the scores
   scene.liquid->fills = {1};
   scene.tilts = {0, radians(60)};
   const auto steps = [](Axis& axis, double from, double to, int count) {

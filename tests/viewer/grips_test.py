@@ -11,7 +11,7 @@ GRIP = ["three_beakers", "--vessel", "beaker1", "--height-mm", "58.5", "--roll-d
 DIGITS = 2e-7     # m: frames have the digits of a float, of places up to a metre
 ON_SCREEN = 0.5   # px: the page projects in float where the test does in double
 THUMB_TIP, INDEX_TIP = 3, 8
-STRENGTH = 25     # N, of the index finger in the scene: the weaker one of the two tips
+STRENGTH = 25 * 158 / 236  # N, of the index finger at an opening of 80 mm: the weaker one of the two tips
 BRACKETS = 2e-3   # relative: an effort is found to 1e-3, and a tilt that is rounded otherwise may end elsewhere in that
 
 
