@@ -28,9 +28,9 @@ class EffortPrecision : public testing::Test {
     scene_.strength->by_opening = false;
     for (double& digit : scene_.strength->digits) digit *= 0.1;
     scene_.hand.depth_limit = 20e-3;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 100; ++i) {
       GripInput grip;
-      grip.height = 0.02 + 0.001 * i;
+      grip.height = 0.02 + 0.0006 * i;
       grip.roll = -1.5 + 0.03 * (i * 7 % 60);
       grip.obliquity = 0.3 * std::sin(i);
       grips_.push_back(grip);

@@ -18,6 +18,7 @@
 
 #include "core/candidates.h"
 #include "core/core_backend.h"
+#include "core/hand_size.h"
 #include "core/normal.h"
 #include "core/prepare.h"
 #include "host/open_backend.h"
@@ -208,6 +209,9 @@ std::vector<double> scores_by_hand(const Scene& scene, std::size_t vessel, const
 
 Scene small_scene() {
   Scene scene = read_scene_file(find_scene("three_beakers"));
+  // with a hand of which some deviations hold and others do not
+  scene.hand = paper_hand();
+  scene.strength->by_opening = false;
   scene.vessels.resize(2);
   scene.liquid->fills = {0, 1};
   scene.tilts = {0, radians(60)};
