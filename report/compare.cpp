@@ -211,7 +211,7 @@ std::string strength_text(const std::optional<StrengthData>& strength) {
   if (!strength) return "none";
   std::vector<std::string> digits;
   for (const double digit : strength->digits) digits.push_back(plain_text(digit));
-  return joined(digits, ", ") + " N";
+  return joined(digits, ", ") + (strength->by_opening ? " N at the best opening" : " N");
 }
 
 std::string arm_text(const std::optional<ArmData>& arm) {

@@ -434,8 +434,9 @@ RankBy read_rank_by(const std::string& text, const Scene& scene) {
         "--rank-by robust needs [robust], which the scene of this file does not have; allowed: score, worst_effort or push");
   if (needs_effort && !has_effort(scene))
     throw usage_error(
-        fmt::format("--rank-by {} needs [strength] and [tilts], which the scene of this file does not have; allowed: score{}", text,
-                    scene.robust ? " or robust" : ""));
+        fmt::format("--rank-by {} needs efforts, which the scene of this file does not have ([tilts], and [strength] without "
+                    "efforts = false); allowed: score{}",
+                    text, scene.robust ? " or robust" : ""));
   return text == "robust" ? RankBy::robust : text == "push" ? RankBy::push : RankBy::worst_effort;
 }
 
@@ -468,7 +469,8 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core) {
   needed(result, has_effort(scene) ? std::vector<std::string>{"plausible", "not_held"} : std::vector<std::string>{"plausible"});
   if (request.least_bad && !has_effort(scene))
-    throw usage_error("--least-bad: needs [strength] and [tilts], which the scene of this file does not have");
+    throw usage_error(
+        "--least-bad: needs efforts, which the scene of this file does not have ([tilts], and [strength] without efforts = false)");
   if (request.least_bad) needed(result, {"worst_effort"});
   Scores scores(result, scene, request.weights);
   RankKeys keys(result, scores, request.by);

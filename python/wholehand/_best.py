@@ -194,7 +194,7 @@ def best(
     if count < 1 or not apart >= 0 or not np.isfinite(apart):
         raise Error(f"best: n is {n} and apart_mm is {apart_mm}; allowed: n of 1 or more, apart_mm of 0 or more")
     if least_bad and not scene._core.has_effort:
-        raise Error("best: least_bad needs [strength] and [tilts], which the scene does not have")
+        raise Error("best: least_bad needs efforts, which the scene does not have ([tilts], and [strength] without efforts = false)")
     if by is None:
         by = "robust" if scene._core.has_robust else "score"
     is_robust = isinstance(by, str) and by == "robust" and by not in data

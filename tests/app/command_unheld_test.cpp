@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/shipped.h"
 #include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
@@ -110,8 +111,10 @@ TEST_F(CommandUnheld, WhereSomeHoldTheListSaysByHowMuch) {
 }
 
 TEST_F(CommandUnheld, WithoutStrengthThereIsNoSuchGrip) {
-  ASSERT_EQ(run("PROGRAM sweep small --on core --best 2 -o " + result + " >/dev/null").code, 0);
-  expect_error("rank " + result + " --least-bad", 2, "--least-bad: needs [strength] and [tilts]");
+  const std::string scene = folder / "no_efforts.toml";
+  write_file(scene, file_text(find_scene("small")) + "\n[strength]\nefforts = false\n");
+  ASSERT_EQ(run("PROGRAM sweep " + scene + " --on core --best 2 -o " + result + " >/dev/null").code, 0);
+  expect_error("rank " + result + " --least-bad", 2, "--least-bad: needs efforts");
 }
 
 }  // namespace

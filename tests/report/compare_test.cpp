@@ -21,7 +21,7 @@ std::string with_strength(double share = 1) {
   for (const auto& [digit, full] :
        {std::pair("thumb", 40), {"index", 24}, {"middle", 36}, {"ring", 24}, {"little", 16}, {"palm", 80}})
     table += fmt::format("{}_N = {}\n", digit, share * full);
-  return edited(RESULT_SCENE, "[tilts]", table + "\n[tilts]");
+  return edited(RESULT_SCENE, NO_EFFORTS, table);
 }
 
 std::vector<ComparePart> compared(const std::string& a, const std::string& b) {
@@ -45,7 +45,8 @@ TEST(CompareResults, HalfTheStrengthDoublesTheEffortsOfTheSameGrips) {
   ASSERT_EQ(parts[0].changes.size(), 12u);
   EXPECT_EQ(parts[0].changes[0], "- [strength] index_N = 24");
   EXPECT_EQ(parts[0].changes[1], "+ [strength] index_N = 12");
-  EXPECT_EQ(row_of(parts[0], "strength"), (std::vector<std::string>{"40, 24, 36, 24, 16, 80 N", "20, 12, 18, 12, 8, 40 N"}));
+  EXPECT_EQ(row_of(parts[0], "strength"), (std::vector<std::string>{"40, 24, 36, 24, 16, 80 N at the best opening",
+                                                                    "20, 12, 18, 12, 8, 40 N at the best opening"}));
   SweptScene strong(with_strength()), weak(with_strength(0.5));
   for (std::size_t v = 0; v < 2; ++v) {
     const ComparePart& part = parts[v + 1];

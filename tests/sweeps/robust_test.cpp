@@ -454,8 +454,8 @@ TEST(RobustSweep, IsTheSameOnADeviceOnTheCoreAndInRank) {
 TEST(RobustSweep, RefusesToRankByWhatTheSceneLacks) {
   const Scene without = scene_of({beaker1()});
   for (const auto& [by, words] : {std::pair{"robust", "needs [robust]"},
-                                  {"push", "needs [strength] and [tilts]"},
-                                  {"worst_effort", "needs [strength]"},
+                                  {"push", "needs efforts"},
+                                  {"worst_effort", "needs efforts"},
                                   {"luck", "allowed: score, robust, worst_effort or push"}})
     try {
       read_rank_by(by, without);
