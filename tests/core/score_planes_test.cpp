@@ -98,6 +98,8 @@ void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::
   expect_same_plane_value(p.real(FIELD_BONE_STRETCH, 0, i), r.bone_stretch, where + " bone stretch");
   EXPECT_EQ((r.status & STATUS_THROUGH_TABLE) != 0, r.through_table) << where;
   if (scene.table) expect_same_plane_value(p.real(FIELD_TABLE_DEPTH, 0, i), r.table_depth, where + " table depth");
+  EXPECT_EQ((r.status & STATUS_BEYOND_WRIST) != 0, r.beyond_wrist) << where;
+  if (scene.arm) expect_same_plane_value(p.real(FIELD_WRIST_SHARE, 0, i), r.wrist_share, where + " wrist share");
   for (int k = 0; k < 2; ++k)
     expect_same_plane_value(p.real(FIELD_CONTACT_ANGLES, k, i), r.contact_angles[k], where + " contact angle");
   for (int j = 0; j < JOINT_COUNT; ++j) {
@@ -215,6 +217,7 @@ TEST(Score, StrideBeyondTheCountLeavesTheRestAlone) {
 TEST(Score, LeavingFieldsOutChangesNothingInTheOthers) {
   Scene scene = hard_scene();
   scene.table.emplace();
+  scene.arm.emplace();
   scene.hand.between = 2;
   scene.strength.emplace();
   const auto evaluator = make_core_evaluator(scene);

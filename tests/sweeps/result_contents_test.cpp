@@ -231,6 +231,7 @@ TEST_F(ResultContentsTest, TheSizeThatIsAskedForIsThatOfTheFile) {
       {"best alone", changed([](Scene& scene) { scene.output.keep.emplace(); })},
       {"all", changed([](Scene& scene) {
          scene.table.emplace();
+         scene.arm.emplace();
          scene.strength.emplace();
          scene.output.keep.emplace();
          for (const Variable& variable : variable_catalogue()) scene.output.keep->push_back(variable.name);

@@ -102,6 +102,7 @@ TEST(ResultFile, OddShapesAndEveryVariable) {
   scene.grips.roll.values = {0.5};
   scene.grips.offset = range_axis(0, 0.01, 5);
   scene.table.emplace();
+  scene.arm.emplace();
   scene.strength.emplace();
   scene.output.keep.emplace();
   for (const Variable& variable : variable_catalogue()) scene.output.keep->push_back(variable.name);
