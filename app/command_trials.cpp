@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -21,10 +22,10 @@
 namespace wholehand {
 namespace {
 
-constexpr IntegerRange TRIED_GRIPS{0, 100'000};
+constexpr IntegerRange TRIED_GRIPS{0, 100'000}, PLACEMENTS{1, 4'096};
 
 struct TrialsArguments {
-  std::string scene, folder, grips, best, vessel, protocol, model, mass, friction, seed, threads;
+  std::string scene, folder, grips, best, scatter, vessel, protocol, model, mass, friction, seed, threads;
   std::vector<std::string> fills, tilts;
   bool quick = false, resume = false;
 };
@@ -64,6 +65,14 @@ void check_pushed_states(const TrialOptions& options) {
                     options.fills.size()));
 }
 
+// Robust scores are of the scene's own masses, and of tilts.
+void check_scatter(const TrialOptions& options) {
+  if (options.scatter == 0) return;
+  if (options.six_forces) throw usage_error("--scatter: pushes are not scattered; leave --protocol out");
+  if (!std::isnan(options.settings.mass))
+    throw usage_error("--scatter: robust scores are those of the scene's own masses; leave --mass-kg out");
+}
+
 // All that does not need the scene.
 TrialOptions read_options(const TrialsArguments& arguments) {
   TrialOptions options;
@@ -81,6 +90,9 @@ TrialOptions read_options(const TrialsArguments& arguments) {
   if (is_second(arguments.model, "--model", "hand", "contacts")) options.settings.model = TrialModel::contacts;
   if (!arguments.mass.empty()) options.settings.mass = parse_quantity(arguments.mass, "--mass-kg", ranges::MASS);
   if (!arguments.friction.empty()) options.settings.friction = parse_quantity(arguments.friction, "--friction", ranges::FRICTION);
+  if (!arguments.scatter.empty())
+    options.scatter = static_cast<std::size_t>(parse_integer(arguments.scatter, "--scatter", PLACEMENTS));
+  check_scatter(options);
   if (!arguments.seed.empty()) options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
   if (!arguments.threads.empty())
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
@@ -114,6 +126,8 @@ void add_trials_command(CLI::App& app, Action& action) {
   add("-o,--output", arguments->folder, "DIR", "Folder for the tables, the page and the recordings")->required();
   add("--grips", arguments->grips, "N", "Grips of the sample over all scores, of all vessels together (default: 400)");
   add("--best", arguments->best, "N", "Best grips of each vessel (default: 20)");
+  add("--scatter", arguments->scatter, "N",
+      "Try each grip at N random deviations of the scene's [robust] too, as a person's hand misses it");
   add("--vessel", arguments->vessel, "V", "Try this vessel alone (default: all)");
   add("--fill", arguments->fills, "F",
       "Fills, as fractions of the capacity (default: three of the scene's); six-forces takes the largest");

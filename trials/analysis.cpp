@@ -8,6 +8,7 @@
 
 #include "charts/markup.h"
 #include "core/planes.h"
+#include "core/score.h"
 #include "system/readable.h"
 #include "trials/cases.h"
 #include "trials/output.h"
@@ -249,6 +250,23 @@ SurelyHeld surely_held(const TriedGrips& tried, std::size_t vessel) {
   return found;
 }
 
+std::vector<ScatterRow> scatter_rows(const Scene& scene, const TriedGrips& tried) {
+  std::vector<ScatterRow> rows;
+  for (const auto& [sample, is_first] :
+       {std::pair{TrialSample::best, true}, {TrialSample::best, false}, {TrialSample::stratified, false}})
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+      ScatterRow row{sample, v, is_first, {}, {}};
+      for (std::size_t g = 0; g < tried.grips.size(); ++g) {
+        const TrialGrip& grip = tried.grips[g];
+        if (grip.vessel == v && grip.sample == sample && (!is_first || grip.rank <= FIRST_GRIPS))
+          row.count.add(tried.found[g].placements);
+      }
+      row.held = share_of(row.count.held, row.count.all);
+      if (row.count.all > 0) rows.push_back(row);
+    }
+  return rows;
+}
+
 std::vector<TrialBar> bars_of(const Scene& scene, const TriedGrips& tried, const TrialAnalysis& analysis) {
   std::vector<TrialBar> bars;
   const auto add_auc = [&](const char* what, double wanted, std::size_t predictor) {
@@ -273,18 +291,49 @@ std::vector<TrialBar> bars_of(const Scene& scene, const TriedGrips& tried, const
                                 counted(share.of, "grip"), discarded, without),
                     share.of >= LEAST_JUDGED});
   }
+  for (const ScatterRow& row : analysis.scatter ? analysis.scatter->rows : std::vector<ScatterRow>{}) {
+    if (!row.is_first) continue;
+    const std::string failures = failures_text(row.count);
+    bars.push_back(
+        {fmt::format("first {} grips of {} that hold where a person's hand may be", FIRST_GRIPS, scene.vessels[row.vessel].name),
+         WANTED_HELD, row.held.share, row.held.interval,
+         fmt::format("{} of {}{}", row.held.yes, counted(row.held.of, "placement"), failures.empty() ? "" : "; " + failures),
+         row.held.of >= LEAST_JUDGED});
+  }
   return bars;
 }
 
-std::optional<WeightTrial> weights_by_trials(const Scene& scene, const TriedGrips& tried, std::uint64_t seed) {
+// By whole grips, or by their placements. Grips that do not hold by their effort are left out: they score 0 with any weights.
+std::optional<WeightTrial> weights_by_trials(const Scene& scene, const TriedGrips& tried, std::uint64_t seed,
+                                             std::size_t placements) {
   std::vector<TermedGrip> grips;
   for (std::size_t g = 0; g < tried.grips.size(); ++g) {
+    const GripPrediction& said = tried.found[g].prediction;
     const GripFate fate = fate_of(tried, g, JUDGED);
-    if (fate.trials == 0) continue;
-    grips.push_back({tried.found[g].prediction.terms, fate.held && !fate.discarded, fate.discarded});
+    if (fate.trials == 0 || !core_f64::effort_holds(said.scene_worst_effort)) continue;
+    if (placements == 0) grips.push_back({said.terms, fate.held && !fate.discarded, fate.discarded});
+    for (const Placement& one : tried.found[g].placements)
+      if (placements > 0) grips.push_back({said.terms, one.held, !one.is_possible || is_discarded(one.reason)});
   }
   if (grips.empty()) return std::nullopt;
-  return try_weights(grips, effective_weights(scene), seed);
+  return try_weights(grips, effective_weights(scene), seed, std::max<std::size_t>(placements, 1));
+}
+
+ScatterAnalysis analyse_scatter(const Scene& scene, const TriedGrips& tried, const TrialOptions& options) {
+  ScatterAnalysis analysis;
+  analysis.rows = scatter_rows(scene, tried);
+  for (const TrialSample sample : {TrialSample::stratified, TrialSample::best}) {
+    ScatterPredictors row{sample, {}, {}};
+    std::array<std::vector<Prediction>, SCATTER_PREDICTORS> said;
+    for (std::size_t k = 0; k < SCATTER_PREDICTORS; ++k) {
+      said[k] = scatter_predictions(tried, sample, k);
+      row.aucs[k] = auc_with_interval(said[k], options.seed);
+    }
+    row.robust_gain = auc_difference(said[BY_ROBUST_RANK], said[BY_OWN_SCORE], options.seed);
+    if (!said[0].empty()) analysis.predictors.push_back(row);
+  }
+  analysis.weights = weights_by_trials(scene, tried, options.seed, options.scatter);
+  return analysis;
 }
 
 }  // namespace
@@ -292,6 +341,8 @@ std::optional<WeightTrial> weights_by_trials(const Scene& scene, const TriedGrip
 const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES{
     "worst effort",         "worst effort of the scene", "worst tips effort",     "push", "friction needed", "epsilon", "score",
     "score of version 0.1", "effort of the way",         "tips effort of the way"};
+
+const std::array<const char*, SCATTER_PREDICTORS> SCATTER_PREDICTOR_NAMES{"score", "robust rank", "share of deviations that hold"};
 
 bool is_of(const TrialGroup& group, const TrialGrip& grip, const TrialCase& one) {
   return grip.sample == group.sample && one.protocol == group.protocol &&
@@ -318,6 +369,22 @@ std::vector<Prediction> predictions_of(const TriedGrips& tried, const TrialGroup
   return predictions;
 }
 
+std::vector<Prediction> scatter_predictions(const TriedGrips& tried, TrialSample sample, std::size_t predictor) {
+  std::vector<std::pair<double, double>> ranked;  // as lists are: by the 10th percentile, then by the mean
+  for (const GripFinding& found : tried.found) ranked.emplace_back(found.robust.low, found.robust.mean);
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<Prediction> predictions;
+  for (std::size_t g = 0; g < tried.grips.size(); ++g) {
+    const GripFinding& found = tried.found[g];
+    if (tried.grips[g].sample != sample) continue;
+    const auto rank = std::lower_bound(ranked.begin(), ranked.end(), std::pair(found.robust.low, found.robust.mean));
+    const std::array<double, SCATTER_PREDICTORS> said{found.prediction.score, static_cast<double>(rank - ranked.begin()),
+                                                      found.robust.share};
+    for (const Placement& one : found.placements) predictions.push_back({said[predictor], one.held, g});
+  }
+  return predictions;
+}
+
 TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const TrialOptions& options) {
   TrialAnalysis analysis;
   analysis.groups = groups_of(tried, options);
@@ -331,7 +398,8 @@ TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const 
     analysis.efforts.push_back(efforts_of(tried, group));
   }
   analysis.pushed = pushed_of(analysis.grips);
-  if (options.fill_tilt) analysis.weights = weights_by_trials(scene, tried, options.seed);
+  if (options.fill_tilt) analysis.weights = weights_by_trials(scene, tried, options.seed, 0);
+  if (options.scatter > 0) analysis.scatter = analyse_scatter(scene, tried, options);
   if (options.fill_tilt) analysis.bars = bars_of(scene, tried, analysis);
   analysis.disagreements = find_disagreements(tried);
   return analysis;
@@ -343,8 +411,14 @@ const char* TrialBar::verdict() const {
   return found >= wanted ? "met" : "missed";
 }
 
+std::string sample_text(TrialSample sample) { return sample == TrialSample::best ? "best grips" : "stratified sample"; }
+
+std::string scatter_row_text(const ScatterRow& row) {
+  return row.is_first ? fmt::format("first {} grips", FIRST_GRIPS) : sample_text(row.sample);
+}
+
 std::string group_text(const TrialGroup& group, const TrialSettings& settings) {
-  const char* sample = group.sample == TrialSample::best ? "best grips" : "stratified sample";
+  const std::string sample = sample_text(group.sample);
   if (group.protocol == TrialProtocol::fill_tilt) return fmt::format("{}, fill-tilt", sample);
   return fmt::format("{}, six-forces, {}", sample, material_text(settings.materials[static_cast<std::size_t>(group.material)]));
 }
@@ -364,6 +438,16 @@ std::string weights_text(const WeightTrial& weights) {
                                                      : "the fitted weights are not better by more than the interval");
   if (!std::isnan(weights.tried.difference.difference))
     text += fmt::format(" Without the discarded grips {}.", contest(weights.tried));
+  return text;
+}
+
+std::string failures_text(const PlacementCount& count) {
+  std::string text;
+  const auto add = [&](std::size_t number, const char* name) {
+    if (number > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", readable_number(number), name);
+  };
+  for (std::size_t k = 0; k < count.reasons.size(); ++k) add(count.reasons[k], TRIAL_REASON_NAMES[k]);
+  add(count.impossible, "impossible");
   return text;
 }
 

@@ -97,6 +97,37 @@ struct GroupEfforts {
   std::size_t earlier = 0, discarded = 0;  // trials that are not in them
 };
 
+// ---- grips placed as a person takes them ----
+
+constexpr std::size_t FIRST_GRIPS = 5;  // of a list: what a person acts on
+
+// What became of the placements of a vessel's grips of a sample, or of the first FIRST_GRIPS of its lists.
+struct ScatterRow {
+  TrialSample sample = TrialSample::best;
+  std::size_t vessel = 0;
+  bool is_first = false;
+  PlacementCount count;
+  Share held;  // of all placements: what cannot be tried, or was discarded, is not held
+};
+
+enum ScatterPredictorName : std::size_t { BY_OWN_SCORE, BY_ROBUST_RANK, BY_ROBUST_SHARE, SCATTER_PREDICTORS };
+extern const std::array<const char*, SCATTER_PREDICTORS> SCATTER_PREDICTOR_NAMES;
+
+// What a number says of the placements of a sample's grips: larger is better, and success is to be held.
+std::vector<Prediction> scatter_predictions(const TriedGrips& tried, TrialSample sample, std::size_t predictor);
+
+struct ScatterPredictors {
+  TrialSample sample = TrialSample::stratified;
+  std::array<Auc, SCATTER_PREDICTORS> aucs;
+  AucDifference robust_gain;  // AUC of the robust rank less that of the score
+};
+
+struct ScatterAnalysis {
+  std::vector<ScatterRow> rows;
+  std::vector<ScatterPredictors> predictors;
+  std::optional<WeightTrial> weights;  // by the placements of the stratified sample
+};
+
 // Of fewer a bar is not judged, as its interval would say too little: where 10 of 10 hold, it may be 72 % in truth.
 constexpr std::size_t LEAST_JUDGED = 10;  // successes, and as many failures, of an AUC; grips of a share
 
@@ -118,6 +149,7 @@ struct TrialAnalysis {
   std::vector<PredictorRow> predictors;
   std::vector<GroupEfforts> efforts;
   std::optional<WeightTrial> weights;  // by the stratified sample at fill_tilt
+  std::optional<ScatterAnalysis> scatter;
   std::vector<TrialBar> bars;
   std::vector<Disagreement> disagreements;  // the worst first, at most MOST_DISAGREEMENTS
 };
@@ -127,10 +159,14 @@ TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const 
 // ---- words ----
 
 std::string group_text(const TrialGroup& group, const TrialSettings& settings);  // "best grips, fill-tilt"
+std::string sample_text(TrialSample sample);                                     // "best grips"
+std::string scatter_row_text(const ScatterRow& row);                             // "first 5 grips", or the sample
 // "mass and friction of the scene".
 std::string material_text(const TrialMaterial& material);
 // Whether the fitted weights are better than the scene's, a sentence.
 std::string weights_text(const WeightTrial& weights);
+// "12 overlap, 3 impossible"; nothing where all were held.
+std::string failures_text(const PlacementCount& count);
 // What the engine did in one trial, a sentence.
 std::string outcome_text(const TrialCase& one, const TrialOutcome& outcome);
 // "0.91 (0.88 to 0.94)".

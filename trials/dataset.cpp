@@ -49,6 +49,7 @@ class Dataset {
     file_.labels("term", "term of the score", {"fingers", "contacts", "depth", "posture", "force", "hold"});
     write_grips();
     write_predictions();
+    write_placements();
     write_cases(options.settings);
     write_outcomes(options.settings);
     file_.finish({});
@@ -153,6 +154,32 @@ class Dataset {
     file_.doubles("score_terms", {"grip", "term"}, "1", "terms of the score", terms);
   }
 
+  void write_placements() {
+    std::vector<double> lows, means, shares;
+    std::array<std::vector<int>, 4> numbers;
+    for (const GripFinding& found : tried_.found) {
+      PlacementCount count;
+      count.add(found.placements);
+      lows.push_back(found.robust.low);
+      means.push_back(found.robust.mean);
+      shares.push_back(found.robust.share);
+      const std::array<std::size_t, 4> counts{count.all, count.held, count.discarded, count.impossible};
+      for (std::size_t k = 0; k < counts.size(); ++k)
+        numbers[k].push_back(count.all > 0 ? static_cast<int>(counts[k]) : static_cast<int>(MISSING));
+    }
+    file_.doubles("robust_low", {"grip"}, "1", "10th percentile of the score over the deviations of [robust]", lows);
+    file_.doubles("robust_mean", {"grip"}, "1", "mean of these scores", means);
+    file_.doubles("robust_share", {"grip"}, "1", "share of these deviations that are feasible, plausible and held by their effort",
+                  shares);
+    constexpr std::array<std::pair<const char*, const char*>, 4> NAMES{
+        {{"placements", "random deviations at which the grip was tried"},
+         {"placements_held", "of these, held in every state"},
+         {"placements_discarded", "of these, discarded"},
+         {"placements_impossible", "of these, infeasible or implausible, and so not tried"}}};
+    for (std::size_t k = 0; k < NAMES.size(); ++k)
+      file_.integers(NAMES[k].first, {"grip"}, "1", NAMES[k].second, numbers[k], {{}, true});
+  }
+
   void write_cases(const TrialSettings& settings) {
     integers_of_trials("trial_grip", "place of the grip", [](const TrialView& at) { return static_cast<double>(at.place); });
     integers_of_trials("protocol", "protocol of the trial",
@@ -216,8 +243,8 @@ class Dataset {
 
 // As `Dataset` defines them; a test holds it to the files themselves.
 std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried) {
-  constexpr std::uint64_t OF_GRIP = 21 * sizeof(double) + 2 * sizeof(int), OF_TRIAL = 11 * sizeof(double) + 8 * sizeof(int);
-  constexpr std::uint64_t VARIABLES = 40, HEAD = 1000;   // of each, with its attributes
+  constexpr std::uint64_t OF_GRIP = 24 * sizeof(double) + 6 * sizeof(int), OF_TRIAL = 11 * sizeof(double) + 8 * sizeof(int);
+  constexpr std::uint64_t VARIABLES = 47, HEAD = 1000;   // of each, with its attributes
   constexpr std::uint64_t REFERENCE = 16, IN_HEAP = 24;  // of a string, beside its text
   constexpr std::uint64_t LARGEST_IN_HEAD = 1 << 16;
   std::uint64_t trials = 0, heap = 4096;

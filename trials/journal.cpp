@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr JournalKind TRIAL_JOURNAL{JOURNAL_START,
-                                    "2",
+                                    "3",
                                     "these trials were begun",
                                     "make room, or name another folder",
                                     "make room, then go on with --resume",
@@ -69,6 +69,19 @@ TrialOutcome outcome_of(const Json& content) {
   return outcome;
 }
 
+Json placements_json(const std::vector<Placement>& placements) {
+  Json content = Json::array();
+  for (const Placement& one : placements) content.push_back({one.is_possible, one.held, static_cast<int>(one.reason)});
+  return content;
+}
+
+std::vector<Placement> placements_of(const Json& content) {
+  std::vector<Placement> placements;
+  for (const Json& one : content)
+    placements.push_back({one.at(0).get<bool>(), one.at(1).get<bool>(), static_cast<TrialReason>(one.at(2).get<int>())});
+  return placements;
+}
+
 // A line whose checksum is right was written here: what does not fit it is of a number of grips or cases that is not asked for.
 std::optional<std::pair<std::size_t, GripFinding>> finding_of(const Json& content, const std::vector<std::size_t>& counts) {
   try {
@@ -78,6 +91,9 @@ std::optional<std::pair<std::size_t, GripFinding>> finding_of(const Json& conten
     GripFinding found;
     found.prediction = prediction_of(content.at("said"), counts[grip]);
     for (const Json& one : outcomes) found.outcomes.push_back(outcome_of(one));
+    found.placements = placements_of(content.at("placements"));
+    const Json& robust = content.at("robust");
+    found.robust = {number_at(robust, 0), number_at(robust, 1), number_at(robust, 2)};
     return std::pair(grip, found);
   } catch (const Json::exception&) {
     return std::nullopt;
@@ -107,7 +123,12 @@ TrialJournal::TrialJournal(const std::string& path, const TrialIdentity& identit
 void TrialJournal::add(std::size_t grip, const GripFinding& found) {
   Json outcomes = Json::array();
   for (const TrialOutcome& outcome : found.outcomes) outcomes.push_back(outcome_json(outcome));
-  lines_.add({{"grip", grip}, {"said", prediction_json(found.prediction)}, {"outcomes", outcomes}});
+  const RobustScore& robust = found.robust;
+  lines_.add({{"grip", grip},
+              {"said", prediction_json(found.prediction)},
+              {"outcomes", outcomes},
+              {"placements", placements_json(found.placements)},
+              {"robust", {bits_of(robust.mean), bits_of(robust.low), bits_of(robust.share)}}});
 }
 
 }  // namespace wholehand

@@ -198,27 +198,30 @@ double weighted_score(const TermedGrip& grip, const std::array<double, SCORE_TER
   return score;
 }
 
-// Every second one of the successes, of the failures and of the discarded, in an order that the seed draws.
-std::vector<char> drawn_half(std::span<const TermedGrip> grips, std::uint64_t seed) {
+// Every second one of the successes, of the failures and of the discarded, in an order that the seed draws: of grips with `each` outcomes.
+std::vector<char> drawn_half(std::span<const TermedGrip> grips, std::uint64_t seed, std::size_t each) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
-  for (std::size_t i = 0; i < grips.size(); ++i) order.emplace_back(mixed_bits(seed + SPLIT_MIX_STEP * (i + 1)), i);
+  for (std::size_t i = 0; i < grips.size() / each; ++i) order.emplace_back(mixed_bits(seed + SPLIT_MIX_STEP * (i + 1)), i);
   std::sort(order.begin(), order.end());
-  std::vector<char> is_first(grips.size());
+  std::vector<char> is_first(order.size());
   std::array<bool, 3> next{true, true, true};
   for (const auto& [key, i] : order) {
-    bool& turn = next[grips[i].discarded ? 2 : grips[i].success ? 1 : 0];
+    bool& turn = next[grips[i * each].discarded ? 2 : grips[i * each].success ? 1 : 0];
     is_first[i] = turn;
     turn = !turn;
   }
   return is_first;
 }
 
-WeightContest contest_of(std::span<const TermedGrip> grips, const std::array<double, SCORE_TERM_COUNT>& fitted,
+// An outcome and the number of its grip.
+using NumberedOutcome = std::pair<TermedGrip, std::size_t>;
+
+WeightContest contest_of(const std::vector<NumberedOutcome>& outcomes, const std::array<double, SCORE_TERM_COUNT>& fitted,
                          const std::array<double, SCORE_TERM_COUNT>& given, std::uint64_t seed) {
   std::vector<Prediction> by_fitted, by_given;
-  for (std::size_t i = 0; i < grips.size(); ++i) {
-    by_fitted.push_back({weighted_score(grips[i], fitted), grips[i].success, i});
-    by_given.push_back({weighted_score(grips[i], given), grips[i].success, i});
+  for (const auto& [one, grip] : outcomes) {
+    by_fitted.push_back({weighted_score(one, fitted), one.success, grip});
+    by_given.push_back({weighted_score(one, given), one.success, grip});
   }
   return {auc_with_interval(by_fitted, seed), auc_with_interval(by_given, seed), auc_difference(by_fitted, by_given, seed)};
 }
@@ -259,16 +262,22 @@ std::array<double, SCORE_TERM_COUNT> weights_of(const LogisticFit& fit) {
   return weights;
 }
 
-WeightTrial try_weights(std::span<const TermedGrip> grips, const std::array<double, SCORE_TERM_COUNT>& given, std::uint64_t seed) {
-  const std::vector<char> is_first = drawn_half(grips, seed);
-  std::vector<TermedGrip> first, second, tried;
+WeightTrial try_weights(std::span<const TermedGrip> grips, const std::array<double, SCORE_TERM_COUNT>& given, std::uint64_t seed,
+                        std::size_t each) {
+  const std::vector<char> is_first = drawn_half(grips, seed, each);
+  std::vector<TermedGrip> first;
+  std::vector<NumberedOutcome> second, tried;
   for (std::size_t i = 0; i < grips.size(); ++i) {
-    (is_first[i] ? first : second).push_back(grips[i]);
-    if (!is_first[i] && !grips[i].discarded) tried.push_back(grips[i]);
+    if (is_first[i / each]) {
+      first.push_back(grips[i]);
+      continue;
+    }
+    second.emplace_back(grips[i], i / each);
+    if (!grips[i].discarded) tried.emplace_back(grips[i], i / each);
   }
   WeightTrial trial;
-  trial.fitted_on = first.size();
-  trial.judged_on = second.size();
+  trial.fitted_on = first.size() / each;
+  trial.judged_on = second.size() / each;
   trial.fit = fit_logistic(first);
   if (!trial.fit.is_fitted) return trial;
   trial.weights = weights_of(trial.fit);

@@ -59,7 +59,9 @@ struct WeightTrial {
   WeightContest tried;                       // without the discarded ones
   bool is_better() const { return all.difference.interval.low > 0; }
 };
-// The halves are drawn by the seed, among successes, failures and discarded grips alike.
-WeightTrial try_weights(std::span<const TermedGrip> grips, const std::array<double, SCORE_TERM_COUNT>& given, std::uint64_t seed);
+// The halves are drawn by the seed, among successes, failures and discarded grips alike. `each` outcomes of a grip stand one after the other:
+// they come into the same half, as its first one says, and into the same resamples.
+WeightTrial try_weights(std::span<const TermedGrip> grips, const std::array<double, SCORE_TERM_COUNT>& given, std::uint64_t seed,
+                        std::size_t each = 1);
 
 }  // namespace wholehand

@@ -26,7 +26,8 @@ struct TrialOptions {
   bool fill_tilt = true, six_forces = false;
   TrialSettings settings;
   std::uint64_t seed = 1;
-  int threads = 0;  // 0: all
+  int threads = 0;          // 0: all
+  std::size_t scatter = 0;  // placements of each grip with deviations of [robust]; 0: none
   bool quick = false;
   bool resume = false;
   std::size_t most_looked = std::size_t{1} << 18;  // grips of a vessel whose scores are looked at for the sample

@@ -16,6 +16,7 @@ namespace {
 constexpr std::pair<const char*, const char*> CONTENTS[] = {{"bars", "The bars"},
                                                             {"tried", "What was tried"},
                                                             {"success", "How many held"},
+                                                            {"scatter", "Where a person's hand may be"},
                                                             {"predictors", "What predicts success"},
                                                             {"efforts", "Is effort right?"},
                                                             {"weights", "Weights of the score"},
@@ -60,7 +61,9 @@ void write_trials_header(MarkupWriter& html, const TrialPageSource& source) {
                            counted(source.tried.grips.size(), "grip"), counted(trials, "trial"), source.engine),
                {{"class", "lead"}});
   html.open("nav", {{"aria-label", "Contents"}}).open("ul");
-  for (const auto& [id, text] : CONTENTS) html.open("li").element("a", text, {{"href", fmt::format("#{}", id)}}).close();
+  for (const auto& [id, text] : CONTENTS)
+    if (source.analysis.scatter || std::string_view(id) != "scatter")
+      html.open("li").element("a", text, {{"href", fmt::format("#{}", id)}}).close();
   html.close().close().close();
 }
 
@@ -86,6 +89,7 @@ std::string trials_page(const TrialPageSource& source) {
   write_trial_bars(html, source);
   write_trial_setup(html, source);
   write_trial_successes(html, source);
+  write_trial_scatter(html, source);
   write_trial_predictors(html, source);
   write_trial_efforts(html, source);
   write_trial_weights(html, source);

@@ -11,6 +11,7 @@ void write_trial_bars(MarkupWriter& html, const TrialPageSource& source);
 void write_trial_setup(MarkupWriter& html, const TrialPageSource& source);
 void write_trial_successes(MarkupWriter& html, const TrialPageSource& source);
 void write_success_charts(MarkupWriter& html, const TrialPageSource& source);  // of the first group at fill-tilt, over the tilt
+void write_trial_scatter(MarkupWriter& html, const TrialPageSource& source);   // nothing without one
 void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source);
 void write_trial_efforts(MarkupWriter& html, const TrialPageSource& source);
 void write_trial_weights(MarkupWriter& html, const TrialPageSource& source);

@@ -52,8 +52,7 @@ void write_pushed_grips(MarkupWriter& html, const TrialPageSource& source) {
   for (const TrialMaterial& material : source.options.settings.materials) columns.push_back(material_text(material));
   HtmlTable table(html, "Grips that hold in all six directions", columns, {1});
   for (const PushedGrips& row : source.analysis.pushed) {
-    std::vector<std::string> cells{source.scene.vessels[row.vessel].name,
-                                   row.sample == TrialSample::best ? "best grips" : "stratified sample"};
+    std::vector<std::string> cells{source.scene.vessels[row.vessel].name, sample_text(row.sample)};
     for (const WholeGrips& one : row.by_material)
       cells.push_back(share_text(one.held) + (one.discarded > 0 ? fmt::format("; {} discarded", one.discarded) : ""));
     table.row(cells);
@@ -197,6 +196,70 @@ void write_trial_successes(MarkupWriter& html, const TrialPageSource& source) {
   html.close();
 }
 
+namespace {
+
+// A row for each grip of the lists.
+void write_placed_grips(MarkupWriter& html, const TrialPageSource& source) {
+  HtmlTable table(
+      html, "Best grips at their deviations",
+      {"vessel", "place in the list", "grip", "score", "robust score", "deviations that hold by effort", "held", "not held by"},
+      {7});
+  for (std::size_t g = 0; g < source.tried.grips.size(); ++g) {
+    const TrialGrip& grip = source.tried.grips[g];
+    const GripFinding& found = source.tried.found[g];
+    if (grip.sample != TrialSample::best) continue;
+    PlacementCount count;
+    count.add(found.placements);
+    table.row({source.scene.vessels[grip.vessel].name, fmt::format("{}", grip.rank), readable_number(grip.number),
+               shown_number(found.prediction.score, 3), shown_number(found.robust.low, 3), shown_number(found.robust.share, 2),
+               share_text(share_of(count.held, count.all)), failures_text(count)});
+  }
+  table.end();
+}
+
+void write_weights(MarkupWriter& html, const TrialPageSource& source, const std::optional<WeightTrial>& weights,
+                   const char* caption) {
+  if (!weights || !weights->fit.is_fitted) return;
+  if (weights->fit.has_ridge)
+    html.element(
+        "p",
+        "On these grips the likelihood has no largest place, as successes and failures can be separated or terms depend on one "
+        "another. So large coefficients were penalized (a ridge).");
+  const std::array<double, 6> given = effective_weights(source.scene);
+  HtmlTable table(html, caption, {"term", "the scene's weight", "fitted coefficient", "fitted weight"});
+  for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k)
+    table.row({SCORE_TERMS[k], shown_number(given[k], 2), shown_number(weights->fit.coefficients[k], 2),
+               shown_number(weights->weights[k], 2) + (weights->fit.is_least[k] ? " (the least)" : "")});
+  table.end();
+  html.element("p", fmt::format("Fitted on {} grips, judged on the other {}. {}", weights->fitted_on, weights->judged_on,
+                                weights_text(*weights)));
+}
+
+}  // namespace
+
+void write_trial_scatter(MarkupWriter& html, const TrialPageSource& source) {
+  if (!source.analysis.scatter) return;
+  const ScatterAnalysis& scatter = *source.analysis.scatter;
+  open_trial_section(html, "scatter", "Where a person's hand may be");
+  html.element("p", fmt::format("Each grip was tried at {} of the scene's [robust]. It is held there if it is held in every "
+                                "trial. Where it is infeasible or implausible (impossible), or discarded, it is not held.",
+                                counted(source.options.scatter, "random deviation")));
+  HtmlTable table(html, "Deviations at which grips are held", {"vessel", "grips", "held", "not held by"}, {1, 2, 3});
+  for (const ScatterRow& row : scatter.rows)
+    table.row({source.scene.vessels[row.vessel].name, scatter_row_text(row), share_text(row.held), failures_text(row.count)});
+  table.end();
+  HtmlTable aucs(html, "AUC against being held at a deviation", {"grips", "by", "AUC"}, {1, 2});
+  for (const ScatterPredictors& row : scatter.predictors) {
+    for (std::size_t k = 0; k < SCATTER_PREDICTORS; ++k)
+      aucs.row({sample_text(row.sample), SCATTER_PREDICTOR_NAMES[k], interval_text(row.aucs[k].auc, row.aucs[k].interval, 3)});
+    aucs.row({sample_text(row.sample), "robust rank less score",
+              interval_text(row.robust_gain.difference, row.robust_gain.interval, 3)});
+  }
+  aucs.end();
+  write_placed_grips(html, source);
+  html.close();
+}
+
 void write_trial_weights(MarkupWriter& html, const TrialPageSource& source) {
   open_trial_section(html, "weights", "Weights of the score");
   const auto& weights = source.analysis.weights;
@@ -204,24 +267,14 @@ void write_trial_weights(MarkupWriter& html, const TrialPageSource& source) {
     html.element("p", "No weights were fitted: the stratified sample at fill-tilt lacks successes or failures.").close();
     return;
   }
-  html.element(
-      "p", fmt::format("A logistic regression of holding everywhere on the six terms of the score was fitted on {} grips of the "
-                       "stratified sample and judged on the other {}. A discarded grip counts as one that did not hold, so that "
-                       "few of them come into a list of best grips. Each weight is at least {} of the sum.",
-                       weights->fitted_on, weights->judged_on, LEAST_WEIGHT));
-  if (weights->fit.has_ridge)
-    html.element(
-        "p",
-        "On these grips the likelihood has no largest place, as successes and failures can be separated or terms depend on one "
-        "another. So large coefficients were penalized (a ridge).");
-  const std::array<double, 6> given = effective_weights(source.scene);
-  HtmlTable table(html, "Weights that the trials would choose",
-                  {"term", "the scene's weight", "fitted coefficient", "fitted weight"});
-  for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k)
-    table.row({SCORE_TERMS[k], shown_number(given[k], 2), shown_number(weights->fit.coefficients[k], 2),
-               shown_number(weights->weights[k], 2) + (weights->fit.is_least[k] ? " (the least)" : "")});
-  table.end();
-  html.element("p", weights_text(*weights));
+  html.element("p", fmt::format("A logistic regression of holding everywhere on the six terms of the score was fitted on half of "
+                                "the grips of the stratified sample that hold by their effort; others score 0 with any weights. A "
+                                "discarded grip counts as one that did not hold, so that few of them come into a list of best "
+                                "grips. Each weight is at least {} of the sum.",
+                                LEAST_WEIGHT));
+  write_weights(html, source, weights, "Weights that the trials would choose");
+  if (source.analysis.scatter)
+    write_weights(html, source, source.analysis.scatter->weights, "Weights that the trials at deviations would choose");
   html.close();
 }
 

@@ -176,6 +176,7 @@ void TrialPredictor::predict_scores(const Held& held, GripPrediction& prediction
     prediction.score += weights[k] * prediction.terms[k];
     prediction.score_0_1 += weights_0_1[k] * terms_0_1[k];
   }
+  if (!core_f64::effort_holds(prediction.scene_worst_effort)) prediction.score = 0;
 }
 
 // The hold term of version 0.1: with another mass the hold force of each state is in proportion to it.

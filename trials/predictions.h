@@ -27,14 +27,14 @@ struct CasePrediction {
 };
 
 struct GripPrediction {
-  std::vector<CasePrediction> cases;  // in the order of those asked for
-  double worst_effort = 0;            // of the ways to the fill_tilt cases; NaN without any
-  double tips_worst_effort = 0;       // likewise
-  double scene_worst_effort = 0;      // over all states of the scene, as a sweep has it
-  double push = 0;                    // N
-  double friction_needed = 0;         // over all states of the scene
-  double epsilon = 0;                 // the middle of its bracket
-  double score = 0;
+  std::vector<CasePrediction> cases;             // in the order of those asked for
+  double worst_effort = 0;                       // of the ways to the fill_tilt cases; NaN without any
+  double tips_worst_effort = 0;                  // likewise
+  double scene_worst_effort = 0;                 // over all states of the scene, as a sweep has it
+  double push = 0;                               // N
+  double friction_needed = 0;                    // over all states of the scene
+  double epsilon = 0;                            // the middle of its bracket
+  double score = 0;                              // 0 where the worst effort of the scene is above 1
   std::array<double, SCORE_TERM_COUNT> terms{};  // fingers, contacts, depth, posture, force, hold
   double score_0_1 = 0;                          // as version 0.1 had it
 };

@@ -28,6 +28,7 @@
 #include "trials/journal.h"
 #include "trials/output.h"
 #include "trials/page.h"
+#include "trials/scatter.h"
 #include "trials/summary.h"
 
 namespace wholehand {
@@ -75,18 +76,22 @@ TrialIdentity identity_of(const Scene& scene, const TrialOptions& options, const
           {"choice of grips", checksum_of(grips_text(tried.grips))},
           {"choice of states", checksum_of(cases_text(tried.cases))},
           {"model, mass, friction or material", checksum_of(settings_text(options.settings))},
+          {"number of deviations", fmt::format("{}", options.scatter)},
           {"seed", fmt::format("{}", options.seed)},
           {"engine", engine.name()},
           {"build of the program", fmt::format("{} {}", version(), build_id())}};
 }
 
-void check_trial_scene(const Scene& scene) {
+void check_trial_scene(const Scene& scene, std::size_t scatter) {
   const char* name = scene.file.empty() ? "the scene" : scene.file.c_str();
   if (!scene.strength)
     throw usage_error(
         fmt::format("{}: trials need the strength of the hand, and [strength] says efforts = false; leave efforts out", name));
   if (scene.tilts.empty())
     throw usage_error(fmt::format("{}: trials need [tilts], as efforts do; add it to the scene, with its deg", name));
+  if (scatter > 0 && !scene.robust)
+    throw usage_error(
+        fmt::format("{}: --scatter needs [robust], whose deviations it takes; add it to the scene, or leave --scatter out", name));
 }
 
 // What comes from outside of the program, in one line of plain characters: a table and a page will show it.
@@ -99,10 +104,11 @@ std::string plain_detail(std::string detail) {
 class Trials {
  public:
   Trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, SweepResult* result)
-      : scene_(scene), options_(options), result_(result), predictor_(checked(scene), options.settings) {
+      : scene_(scene), options_(options), result_(result), predictor_(checked(scene, options.scatter), options.settings) {
     find_cases();
     engine_ = open(predictor_.scene(), *predictor_.core(), options.settings);
     check_models();
+    if (options.scatter > 0) scatter_.emplace(predictor_.scene(), options.settings, open);
     prepare_trials_folder(options.folder);
   }
 
@@ -143,8 +149,8 @@ class Trials {
   }
 
  private:
-  static const Scene& checked(const Scene& scene) {
-    check_trial_scene(scene);
+  static const Scene& checked(const Scene& scene, std::size_t scatter) {
+    check_trial_scene(scene, scatter);
     return scene;
   }
 
@@ -212,10 +218,11 @@ class Trials {
   void say_trials_opening() const {
     std::size_t trials = 0;
     for (std::size_t g = 0; g < tried_.grips.size(); ++g) trials += tried_.cases_of(g).size();
-    print(fmt::format("{}: {}, {} in {}, {}{}\n", scene_.name.empty() ? "trials" : scene_.name,
-                      counted(tried_.grips.size(), "grip"), counted(trials, "trial"), engine_->name(),
-                      counted(static_cast<std::uint64_t>(thread_count(options_.threads)), "thread"),
-                      options_.quick ? "; --quick: fewer grips and states" : ""));
+    print(fmt::format(
+        "{}: {}, {} in {}, {}{}{}\n", scene_.name.empty() ? "trials" : scene_.name, counted(tried_.grips.size(), "grip"),
+        counted(trials, "trial"), engine_->name(), counted(static_cast<std::uint64_t>(thread_count(options_.threads)), "thread"),
+        options_.scatter > 0 ? fmt::format("; each grip is then tried at {}", counted(options_.scatter, "deviation")) : "",
+        options_.quick ? "; --quick: fewer grips and states" : ""));
   }
 
   // The grips that are not in `found`. Returns how many are there in the end.
@@ -255,6 +262,10 @@ class Trials {
     for (TrialOutcome& outcome : finding.outcomes) {
       outcome.detail = plain_detail(outcome.detail);
       outcome.held = outcome.held && !outcome.discarded;
+    }
+    if (scatter_) {
+      finding.placements = scatter_->place(grip, cases, options_.scatter, options_.seed);
+      finding.robust = scatter_->robust(grip);
     }
     return finding;
   }
@@ -300,6 +311,7 @@ class Trials {
   SweepResult* result_;
   TrialPredictor predictor_;
   std::unique_ptr<TrialEngine> engine_;
+  std::optional<GripScatter> scatter_;
   TriedGrips tried_;
 };
 

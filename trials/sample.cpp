@@ -12,6 +12,7 @@
 #include "core/random_bits.h"
 #include "shaders/status.h"
 #include "sweeps/list_chooser.h"
+#include "sweeps/robust.h"
 #include "system/output.h"
 #include "system/progress.h"
 #include "system/readable.h"
@@ -20,10 +21,6 @@ namespace wholehand {
 namespace {
 
 constexpr std::size_t READ_AT_ONCE = 1 << 16;
-
-std::uint64_t grip_key(std::uint64_t seed, std::size_t vessel, std::uint64_t number) {
-  return mixed_bits(mixed_bits(seed + SPLIT_MIX_STEP * (vessel + 1)) + SPLIT_MIX_STEP * (number + 1));
-}
 
 // How many each stratum gives: fairly, and all together `count` where they have as many.
 std::array<std::size_t, SCORE_STRATA> shares_of(const std::array<std::vector<Candidate>, SCORE_STRATA>& strata, std::size_t count) {
@@ -61,6 +58,10 @@ std::vector<Candidate> listed_best(const SweepResult& result, const Plan& plan, 
 }
 
 }  // namespace
+
+std::uint64_t grip_key(std::uint64_t seed, std::size_t vessel, std::uint64_t number) {
+  return mixed_bits(mixed_bits(seed + SPLIT_MIX_STEP * (vessel + 1)) + SPLIT_MIX_STEP * (number + 1));
+}
 
 std::vector<Candidate> stratified_sample(const std::vector<Candidate>& eligible, std::size_t count, std::size_t vessel,
                                          std::uint64_t seed) {
@@ -175,16 +176,29 @@ std::vector<Candidate> sample_of_parts(const PartedByDepth& parts, std::size_t c
 }
 
 std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
-                                      const std::vector<Candidate>& plausible, const TrialOptions& options) {
+                                      const std::vector<Candidate>& plausible, const TrialOptions& options,
+                                      const std::atomic<bool>& stop) {
   const double apart = scene.output.apart;
-  ListChooser chooser(plan, &core, vessel, {options.best, apart, usual_pool(plan, options.best, apart), options.threads});
+  const std::size_t candidates = robust_candidates(scene, options.best);
+  ListChooser chooser(plan, &core, vessel, {candidates, apart, usual_pool(plan, candidates, apart), options.threads});
   std::vector<Candidate> held = plausible;
   if (has_effort(scene)) std::erase_if(held, [](const Candidate& one) { return !(one.score > 0); });  // 0: it does not hold
   while (!chooser.is_complete()) {
     chooser.offer(held);
     chooser.end_pass();
   }
-  return chooser.chosen();
+  std::vector<std::vector<BestGrip>> lists(scene.vessels.size() * plan.hand_scales());
+  for (std::size_t scale = 0; scale < plan.hand_scales(); ++scale)
+    for (const Candidate& one : chooser.progress()[scale].chosen)
+      lists[vessel * plan.hand_scales() + scale].push_back(bare_grip(plan, vessel, one));
+  const OpenBackend open = [&](const Scene& other, const FieldSet& fields) {
+    return std::make_unique<CoreBackend>(make_core_evaluator(other), other, fields, Precision::full, options.threads);
+  };
+  if (!rank_robustly(open, scene, plan, options.best, &stop, lists)) return {};
+  std::vector<Candidate> best;
+  for (const auto& list : lists)
+    for (const BestGrip& one : list) best.push_back(one.candidate);
+  return best;
 }
 
 std::size_t remove_impossible(const Evaluator& core, std::vector<TrialGrip>& grips) {
@@ -205,18 +219,20 @@ std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, cons
     const std::size_t v = vessels[k];
     std::vector<Candidate> plausible = has_scores ? plausible_in_result(*source.result, source.plan, v, options)
                                                   : plausible_by_core(source.scene, source.plan, source.core, v, options, stop);
-    const std::vector<Candidate> best = has_lists ? listed_best(*source.result, source.plan, v, options.best)
-                                                  : best_different(source.scene, source.plan, *source.core, v, plausible, options);
-    const auto add = [&](const Candidate& one, TrialSample sample) {
-      grips.push_back({v, one.index, source.plan.grip(v, one.index), sample, one.score});
+    const std::vector<Candidate> best = has_lists
+                                            ? listed_best(*source.result, source.plan, v, options.best)
+                                            : best_different(source.scene, source.plan, *source.core, v, plausible, options, stop);
+    const auto add = [&](const Candidate& one, TrialSample sample, std::size_t rank) {
+      grips.push_back({v, one.index, source.plan.grip(v, one.index), sample, one.score, rank});
     };
-    for (const Candidate& one : best) add(one, TrialSample::best);
+    std::vector<std::size_t> places(source.plan.hand_scales());
+    for (const Candidate& one : best) add(one, TrialSample::best, ++places[source.plan.hand_scale_of(one.index)]);
     std::erase_if(plausible, [&](const Candidate& one) {
       return std::any_of(best.begin(), best.end(), [&](const Candidate& listed) { return listed.index == one.index; });
     });
     const std::size_t share = options.grips / vessels.size() + (k < options.grips % vessels.size() ? 1 : 0);
     const PartedByDepth parts = parted_by_depth(source.scene, source.plan, source.core, v, plausible, options, stop);
-    for (const Candidate& one : sample_of_parts(parts, share, v, options.seed)) add(one, TrialSample::stratified);
+    for (const Candidate& one : sample_of_parts(parts, share, v, options.seed)) add(one, TrialSample::stratified, 0);
   }
   if (stop) return {};
   const std::size_t impossible = source.result ? remove_impossible(*source.core, grips) : 0;

@@ -24,8 +24,12 @@ struct TrialGrip {
   std::uint64_t number = 0;  // in its vessel's plan
   GripInput grip;
   TrialSample sample = TrialSample::stratified;
-  double score = 0;  // by which it was chosen
+  double score = 0;      // by which it was chosen
+  std::size_t rank = 0;  // in its list, from 1; 0: it is in none
 };
+
+// What the seed draws for a grip.
+std::uint64_t grip_key(std::uint64_t seed, std::size_t vessel, std::uint64_t number);
 
 constexpr std::size_t SCORE_STRATA = 10;
 
@@ -61,9 +65,11 @@ PartedByDepth parted_by_depth(const Scene& scene, const Plan& plan, std::shared_
 // the share of discarded grips does not hang on how much the score gives for depth.
 std::vector<Candidate> sample_of_parts(const PartedByDepth& parts, std::size_t count, std::size_t vessel, std::uint64_t seed);
 
-// The best different ones of plausible grips, as a sweep lists them, of all hand scales: of those that hold.
+// The best different ones of plausible grips, as a sweep lists them, of one hand scale after the other: of those that hold. Empty
+// where `stop` is set.
 std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
-                                      const std::vector<Candidate>& plausible, const TrialOptions& options);
+                                      const std::vector<Candidate>& plausible, const TrialOptions& options,
+                                      const std::atomic<bool>& stop);
 
 // A result may have found its grips in single precision: those go that are not feasible and plausible by the core. How many.
 std::size_t remove_impossible(const Evaluator& core, std::vector<TrialGrip>& grips);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "system/readable.h"
+
 namespace wholehand {
 namespace {
 
@@ -26,8 +28,7 @@ std::string pushed_lines(const Scene& scene, const TrialOptions& options, const 
   }
   text += '\n';
   for (const PushedGrips& row : analysis.pushed) {
-    text += fmt::format("  {:{}}  {}:", scene.vessels[row.vessel].name, widest,
-                        row.sample == TrialSample::best ? "best grips" : "stratified sample");
+    text += fmt::format("  {:{}}  {}:", scene.vessels[row.vessel].name, widest, sample_text(row.sample));
     before = " ";
     for (const WholeGrips& one : row.by_material) {
       text += fmt::format("{}{} of {}", before, one.held.yes, one.held.of);
@@ -36,6 +37,37 @@ std::string pushed_lines(const Scene& scene, const TrialOptions& options, const 
     }
     text += '\n';
   }
+  return text;
+}
+
+// What became of the deviations, and what predicts it.
+std::string scatter_lines(const Scene& scene, const TrialOptions& options, const ScatterAnalysis& scatter, std::size_t widest) {
+  std::string text = fmt::format("grips at {} of [robust] each, held in every trial:\n", counted(options.scatter, "deviation"));
+  for (const ScatterRow& row : scatter.rows) {
+    const std::string failures = failures_text(row.count);
+    text += fmt::format("  {:{}}  {}: {} of {}{}\n", scene.vessels[row.vessel].name, widest, scatter_row_text(row), row.held.yes,
+                        readable_number(row.held.of), failures.empty() ? "" : "; " + failures);
+  }
+  for (const ScatterPredictors& row : scatter.predictors) {
+    if (std::isnan(row.aucs[0].auc)) continue;  // all held, or none
+    text += fmt::format("AUC against being held at a deviation, {}:\n", sample_text(row.sample));
+    for (std::size_t k = 0; k < SCATTER_PREDICTORS; ++k)
+      text += fmt::format("  {:<30} {}\n", SCATTER_PREDICTOR_NAMES[k], plain_interval(row.aucs[k].auc, row.aucs[k].interval));
+    text += fmt::format("  {:<30} {}\n", "robust rank less score",
+                        plain_interval(row.robust_gain.difference, row.robust_gain.interval));
+  }
+  return text;
+}
+
+std::string weights_lines(const std::optional<WeightTrial>& weights, const char* by) {
+  if (!weights || !weights->fit.is_fitted) return "";
+  const AucDifference &more = weights->all.difference, &tried = weights->tried.difference;
+  std::string text = fmt::format(
+      "weights fitted to {}half of the grips change the AUC on the other half, where discarded ones are failures, by {}: {}\n", by,
+      plain_interval(more.difference, more.interval),
+      weights->is_better() ? "better than the scene's weights" : "not better than the scene's weights");
+  if (!std::isnan(tried.difference))
+    text += fmt::format("  without the discarded ones they change it by {}\n", plain_interval(tried.difference, tried.interval));
   return text;
 }
 
@@ -63,14 +95,10 @@ std::string trials_summary(const Scene& scene, const TrialOptions& options, cons
       if (row.group == group)
         text += fmt::format("  {:<26} {}\n", TRIAL_PREDICTOR_NAMES[row.predictor], plain_interval(row.auc.auc, row.auc.interval));
   }
-  if (analysis.weights && analysis.weights->fit.is_fitted) {
-    const AucDifference &more = analysis.weights->all.difference, &tried = analysis.weights->tried.difference;
-    text += fmt::format(
-        "weights fitted to half of the grips change the AUC on the other half, where discarded grips are failures, by {}: {}\n",
-        plain_interval(more.difference, more.interval),
-        analysis.weights->is_better() ? "better than the scene's weights" : "not better than the scene's weights");
-    if (!std::isnan(tried.difference))
-      text += fmt::format("  without the discarded grips they change it by {}\n", plain_interval(tried.difference, tried.interval));
+  text += weights_lines(analysis.weights, "");
+  if (analysis.scatter) {
+    text += scatter_lines(scene, options, *analysis.scatter, widest);
+    text += weights_lines(analysis.scatter->weights, "the deviations of ");
   }
   for (const TrialBar& bar : analysis.bars) {
     const std::string found =

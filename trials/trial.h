@@ -77,6 +77,16 @@ struct TrialOutcome {
   double tilt_lost = 0;       // at which it was lost, rad
 };
 
+// A grip where a deviation has put it, tried in all its cases.
+struct Placement {
+  bool is_possible = false;                // feasible and plausible there; else it is not tried
+  bool held = false;                       // in every case
+  TrialReason reason = TrialReason::none;  // of the first case that was discarded; else of the first that was lost
+};
+constexpr bool is_discarded(TrialReason reason) {
+  return reason == TrialReason::overlap || reason == TrialReason::buried || reason == TrialReason::diverged;
+}
+
 // One moment of a trial, for a drawing or a recording. Vessel and hand in the frame of the grip: the vessel's as it was gripped.
 struct TrialFrame {
   double time = 0;                             // s since the release

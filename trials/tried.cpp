@@ -16,7 +16,10 @@ constexpr const char* COLUMNS =
     "vessel,grip,fill,tilt_rad,protocol,effort,tips_effort,push_N,score,held,slip_m,turn_rad,discarded,reason,"
     "sample,model,material,direction,move_m,lost_after_s,tilt_lost_rad,worst_effort,tips_worst_effort,scene_worst_effort,"
     "friction_needed,epsilon,score_0_1,score_fingers,score_contacts,score_depth,score_posture,score_force,score_hold,"
-    "height_m,azimuth_rad,obliquity_rad,roll_rad,offset_m,hand_scale,leg_effort,leg_tips_effort,slipped,detail\n";
+    "height_m,azimuth_rad,obliquity_rad,roll_rad,offset_m,hand_scale,leg_effort,leg_tips_effort,slipped,robust_low,robust_mean,"
+    "robust_share,"
+    "placements,"
+    "placements_held,placements_discarded,placements_impossible,detail\n";
 
 std::string cell_of(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
@@ -45,7 +48,26 @@ void add_grip(RowText& row, const TrialGrip& grip, const GripPrediction& said) {
   row.add(grip.grip.roll).add(grip.grip.offset).add(grip.grip.hand_scale);
 }
 
+void add_placements(RowText& row, const GripFinding& found) {
+  const bool has_any = !found.placements.empty();
+  PlacementCount count;
+  count.add(found.placements);
+  row.add(found.robust.low).add(found.robust.mean).add(found.robust.share);
+  for (const std::size_t number : {count.all, count.held, count.discarded, count.impossible})
+    row.add(static_cast<double>(number), has_any);
+}
+
 }  // namespace
+
+void PlacementCount::add(const std::vector<Placement>& placements) {
+  all += placements.size();
+  for (const Placement& one : placements) {
+    held += one.held ? 1 : 0;
+    impossible += one.is_possible ? 0 : 1;
+    discarded += is_discarded(one.reason) ? 1 : 0;
+    if (one.is_possible && !one.held) ++reasons[static_cast<std::size_t>(one.reason)];
+  }
+}
 
 std::string trials_csv(const Scene& scene, const TrialSettings& settings, const TriedGrips& tried) {
   std::string text = COLUMNS;
@@ -71,6 +93,7 @@ std::string trials_csv(const Scene& scene, const TrialSettings& settings, const 
       add_grip(row, grip, said);
       row.add(said.cases[k].leg_effort).add(said.cases[k].leg_tips);
       row.add(!has_run ? "" : has_slipped(outcome, settings) ? "1" : "0");
+      add_placements(row, tried.found[g]);
       row.add(csv_text(outcome.detail));
       text += '\n';
     }

@@ -5,16 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "sweeps/best.h"
 #include "trials/predictions.h"
 #include "trials/sample.h"
 #include "trials/trial.h"
 
 namespace wholehand {
 
-// What was found of one grip: outcomes in the order of its vessel's cases.
+// What was found of one grip: outcomes in the order of its vessel's cases. Placements and robust score where a scatter was asked for.
 struct GripFinding {
   GripPrediction prediction;
   std::vector<TrialOutcome> outcomes;
+  std::vector<Placement> placements;
+  RobustScore robust;
 };
 
 struct TriedGrips {
@@ -32,6 +35,13 @@ inline bool is_telling(const TrialOutcome& outcome) { return !outcome.discarded 
 inline bool has_slipped(const TrialOutcome& outcome, const TrialSettings& settings) {
   return !outcome.discarded && outcome.slip > settings.slip;
 }
+
+// What became of placements of grips.
+struct PlacementCount {
+  std::size_t all = 0, held = 0, impossible = 0, discarded = 0;
+  std::array<std::size_t, TRIAL_REASON_NAMES.size()> reasons{};  // of those that are possible and were not held
+  void add(const std::vector<Placement>& placements);
+};
 
 constexpr std::array<const char*, 2> TRIAL_PROTOCOL_NAMES{"fill-tilt", "six-forces"};
 constexpr std::array<const char*, 2> TRIAL_MODEL_NAMES{"hand", "contacts"};

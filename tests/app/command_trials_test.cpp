@@ -89,6 +89,10 @@ TEST_F(TrialsCommand, OptionsThatChangeNothingAreRefused) {
   const std::string start = "trials " + (folder / "cup.toml") + " -o " + (folder / "none") + " ";
   expect_error(start + "--protocol six-forces --tilt-deg 0 30", 2, "--tilt-deg: --protocol six-forces tilts nothing");
   expect_error(start + "--protocol six-forces --fill 0.5 1", 2, "--fill: 2 fills are given");
+  expect_error(start + "--scatter 4", 2, "--scatter needs [robust], whose deviations it takes");
+  expect_error(start + "--scatter 4 --protocol both", 2, "--scatter: pushes are not scattered");
+  expect_error(start + "--scatter 4 --mass-kg 1", 2, "--scatter: robust scores are those of the scene's own masses");
+  expect_error(start + "--scatter 0", 2, "--scatter");
   expect_error(start + "--fill --quick", 2, "--fill: its value is missing: '--quick' is an option");
   expect_error(start + "--vessel --quick", 2, "--vessel: its value is missing");
   expect_error("trials " + (folder / "cup.toml") + " -o --quick", 2, "its value is missing");

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "core/random_bits.h"
 #include "tests/support/fake_trials.h"
 #include "trials/output.h"
 
@@ -236,6 +238,105 @@ TEST(TrialAnalysis, WithoutBothOutcomesThereIsNoAuc) {
   EXPECT_TRUE(std::isnan(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.auc));
   EXPECT_FALSE(found.weights->fit.is_fitted);
   EXPECT_TRUE(found.disagreements.empty());
+}
+
+// ---- placements ----
+
+void place_last(Made& made, std::size_t held, std::size_t overlaps, std::size_t impossible, double score, double low) {
+  GripFinding& found = made.tried.found.back();
+  found.placements.assign(held, {true, true, TrialReason::none});
+  found.placements.insert(found.placements.end(), overlaps, {true, false, TrialReason::overlap});
+  found.placements.insert(found.placements.end(), impossible, Placement{});
+  found.prediction.score = score;
+  found.robust.low = std::floor(low / 3);  // many alike: then the mean decides
+  found.robust.mean = low;
+  found.robust.share = 1;
+  made.options.scatter = found.placements.size();
+}
+
+TEST(TrialAnalysis, PlacementsOfTheFirstGripsHaveABar) {
+  Made made;
+  for (std::size_t rank = 1; rank <= 7; ++rank) {
+    made.add({0.1, 0.2}, {true, true}, TrialSample::best);
+    made.tried.grips.back().rank = rank;
+    if (rank <= 5) place_last(made, 19, 1, 0, 0.9, 0.8);
+    if (rank > 5) place_last(made, 0, 18, 2, 0.9, 0.8);
+  }
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  ASSERT_TRUE(found.scatter);
+  ASSERT_EQ(found.scatter->rows.size(), 2u);
+  EXPECT_TRUE(found.scatter->rows[0].is_first);
+  EXPECT_EQ(found.scatter->rows[0].held.yes, 95u);
+  EXPECT_EQ(found.scatter->rows[0].held.of, 100u);
+  EXPECT_EQ(found.scatter->rows[1].held.of, 140u) << "what cannot be tried counts";
+  EXPECT_EQ(failures_text(found.scatter->rows[1].count), "41 overlap, 4 impossible");
+  const TrialBar& bar = found.bars.back();
+  EXPECT_EQ(bar.found, 0.95);
+  EXPECT_STREQ(bar.verdict(), "met");
+  EXPECT_EQ(bar.how, "95 of 100 placements; 5 overlap");
+  made.tried.found[4].placements[0].held = false;
+  EXPECT_STREQ(analyse_trials(made.scene, made.tried, made.options).bars.back().verdict(), "missed");
+}
+
+// Against a count over all pairs of a placement that was held and one that was not.
+TEST(TrialAnalysis, PlacementsAreJudgedOneByOne) {
+  Made made;
+  std::uint64_t state = 5;
+  const auto drawn = [&](double of) { return std::floor(of * unit_interval(split_mix(state))); };
+  for (int k = 0; k < 30; ++k) {
+    made.add({0.1, 0.2}, {true, true});
+    const auto held = static_cast<std::size_t>(drawn(9));
+    place_last(made, held, 8 - held, 0, drawn(5), static_cast<double>(held) + drawn(4));
+  }
+  made.add({0.1, 0.2}, {true, true}, TrialSample::best);
+  place_last(made, 0, 8, 0, 9, 9);  // another sample
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const auto expected = [&](const std::function<double(const GripFinding&)>& value) {
+    double won = 0, pairs = 0;
+    for (std::size_t a = 0; a < 30; ++a)
+      for (std::size_t b = 0; b < 30; ++b)
+        for (const Placement& one : made.tried.found[a].placements)
+          for (const Placement& other : made.tried.found[b].placements) {
+            if (!one.held || other.held) continue;
+            const double more = value(made.tried.found[a]) - value(made.tried.found[b]);
+            won += more > 0 ? 1 : more == 0 ? 0.5 : 0;
+            ++pairs;
+          }
+    return won / pairs;
+  };
+  const ScatterPredictors& row = found.scatter->predictors.at(0);
+  const double score = expected([](const GripFinding& one) { return one.prediction.score; });
+  const double robust = expected([](const GripFinding& one) { return one.robust.mean; });
+  EXPECT_NEAR(row.aucs[BY_OWN_SCORE].auc, score, 1e-12);
+  EXPECT_NEAR(row.aucs[BY_ROBUST_RANK].auc, robust, 1e-12);
+  EXPECT_EQ(row.aucs[BY_ROBUST_SHARE].auc, 0.5) << "all alike";
+  EXPECT_NEAR(row.robust_gain.difference, robust - score, 1e-12);
+  EXPECT_GT(row.robust_gain.interval.low, 0);
+  EXPECT_EQ(row.aucs[0].successes + row.aucs[0].failures, 240u);
+  // 30 grips and not 240: an interval of single placements would be narrower
+  EXPECT_GT(row.aucs[BY_ROBUST_RANK].interval.high - row.aucs[BY_ROBUST_RANK].interval.low, 0.05);
+}
+
+TEST(TrialAnalysis, WeightsAreFittedToPlacementsOfGripsThatHoldByEffort) {
+  Made made;
+  for (std::size_t k = 0; k < 60; ++k) {
+    made.add({0.1, 0.2}, {true, true});
+    place_last(made, k % 9, 8 - k % 9, 0, 0.5, 0.5);
+    const double other = static_cast<double>(k * 7 % 11) / 11;  // says nothing
+    made.tried.found.back().prediction.terms = {0.5, 0.5, other, 0.1 * static_cast<double>(k % 9), 0.5, 0.5};
+  }
+  for (std::size_t k = 0; k < 20; ++k) {
+    made.add({0.1, 3}, {true, false});
+    place_last(made, 8, 0, 0, 0, 0);
+    made.tried.found.back().prediction.scene_worst_effort = 3;
+  }
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  ASSERT_TRUE(found.scatter && found.scatter->weights && found.scatter->weights->fit.is_fitted);
+  const WeightTrial& weights = *found.scatter->weights;
+  EXPECT_EQ(weights.fitted_on + weights.judged_on, 60u) << "grips, of those that hold";
+  EXPECT_EQ(weights.all.fitted.successes + weights.all.fitted.failures, 8 * weights.judged_on);
+  EXPECT_GT(weights.weights[3], 0.8) << "posture tells all here, and most of the weight given is on depth";
+  EXPECT_TRUE(weights.is_better());
 }
 
 // What cannot be tried is a failure for the fit, though it is none for an AUC.

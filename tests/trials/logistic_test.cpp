@@ -127,6 +127,20 @@ TEST(TrialWeights, DiscardedGripsAreFailuresOfTheFit) {
   EXPECT_GT(trial.all.difference.difference, trial.tried.difference.difference);
 }
 
+// Outcomes of one grip stay together: the same grips ten times over leave the halves and the intervals as they were.
+TEST(TrialWeights, OutcomesOfAGripAreDrawnTogether) {
+  const auto grips = drawn_grips(200, {0, 0, 4, 0, 0, 4}, -4, 11);
+  std::vector<TermedGrip> repeated;
+  for (const TermedGrip& grip : grips) repeated.insert(repeated.end(), 10, grip);
+  const WeightTrial once = try_weights(grips, {1, 0, 0, 0, 0, 0}, 3), ten = try_weights(repeated, {1, 0, 0, 0, 0, 0}, 3, 10);
+  EXPECT_EQ(ten.fitted_on, once.fitted_on);
+  EXPECT_EQ(ten.judged_on, once.judged_on);
+  for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k) EXPECT_NEAR(ten.weights[k], once.weights[k], 1e-6) << k;
+  EXPECT_NEAR(ten.all.difference.interval.low, once.all.difference.interval.low, 1e-9);
+  EXPECT_NEAR(ten.all.difference.interval.high, once.all.difference.interval.high, 1e-9);
+  EXPECT_EQ(ten.all.fitted.successes, 10 * once.all.fitted.successes);
+}
+
 TEST(TrialWeights, SeparableGripsAreFittedWithARidge) {
   std::vector<TermedGrip> grips;
   for (int i = 0; i < 20; ++i) grips.push_back({{i / 20.0, 0.3, 0, 0, 0, 0}, i >= 10});

@@ -140,6 +140,12 @@ TEST(TrialPredictions, MassOfTheTrials) {
   EXPECT_NEAR(two.scene_worst_effort, 2 * one.scene_worst_effort, 4e-3 * one.scene_worst_effort);
   EXPECT_LT(two.score, one.score);
   EXPECT_LT(two.push, one.push);
+  // what is more than the strength scores 0
+  TrialSettings too_heavy;
+  too_heavy.mass = 1.01 * 0.3 / one.scene_worst_effort;
+  EXPECT_EQ(TrialPredictor(scene, too_heavy).predict(0, good_grip(), cases).score, 0);
+  too_heavy.mass *= 0.98;
+  EXPECT_GT(TrialPredictor(scene, too_heavy).predict(0, good_grip(), cases).score, 0);
   // the second material of six_forces has a mass of its own
   for (std::size_t k = 18; k < 24; ++k) EXPECT_EQ(two.cases[k].effort, one.cases[k].effort) << k;
 }

@@ -131,21 +131,68 @@ TEST_F(TrialsTest, SameBitsWhateverTheThreads) {
 
 // The lists and scores of a sweep on the core are those that trials find themselves.
 TEST_F(TrialsTest, GripsOfAResultAreThoseOfItsScene) {
-  ASSERT_EQ(run().code, ExitCode::done);
-  const std::string of_scene = csv();
-  SweepOptions sweep;
-  sweep.output = folder / "swept.nc";
-  sweep.on = "core";
-  sweep.best = 2;
-  sweep.refine = false;
-  testing::internal::CaptureStdout();
-  EXPECT_EQ(run_sweep(scene, sweep), ExitCode::done);
-  testing::internal::GetCapturedStdout();
-  SweepResult result(sweep.output);
-  options.folder = folder / "of_result";
-  const TrialsRun ran = run(open_fake_engine(), &result);
-  ASSERT_EQ(ran.code, ExitCode::done) << ran.error;
-  EXPECT_EQ(csv(), of_scene);
+  std::set<std::string> tables;
+  for (const bool is_robust : {false, true}) {
+    if (is_robust) {
+      scene.robust.emplace();
+      scene.robust->height = 8e-3;
+      scene.robust->roll = radians(20);
+    }
+    const std::string name = is_robust ? "robust" : "plain";
+    options.folder = folder / (name + "_of_scene");
+    ASSERT_EQ(run().code, ExitCode::done);
+    const std::string of_scene = csv();
+    SweepOptions sweep;
+    sweep.output = folder / (name + ".nc");
+    sweep.on = "core";
+    sweep.best = 2;
+    sweep.refine = false;
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run_sweep(scene, sweep), ExitCode::done);
+    testing::internal::GetCapturedStdout();
+    SweepResult result(sweep.output);
+    options.folder = folder / (name + "_of_result");
+    const TrialsRun ran = run(open_fake_engine(), &result);
+    ASSERT_EQ(ran.code, ExitCode::done) << ran.error;
+    EXPECT_EQ(csv(), of_scene);
+    tables.insert(of_scene);
+  }
+  EXPECT_EQ(tables.size(), 2u) << "deviations change the lists";
+}
+
+TEST_F(TrialsTest, DeviationsAreTriedAndResumed) {
+  options.scatter = 4;
+  EXPECT_TRUE(has(run().error, "--scatter needs [robust]"));
+  EXPECT_EQ(run().code, ExitCode::usage);
+  EXPECT_FALSE(file_exists(options.folder));
+  scene.robust.emplace();
+  scene.robust->height = 8e-3;
+  const TrialsRun whole = run();
+  ASSERT_EQ(whole.code, ExitCode::done) << whole.error;
+  EXPECT_TRUE(has(whole.out, "each grip is then tried at 4 deviations")) << whole.out;
+  EXPECT_TRUE(has(whole.out, "grips at 4 deviations of [robust] each, held in every trial:")) << whole.out;
+  EXPECT_TRUE(has(whole.out, "first 5 grips of beaker1 that hold where a person's hand may be")) << whole.out;
+  const std::string page = file_text(options.folder + "/trials.html"), table = csv();
+  EXPECT_TRUE(has(page, "href=\"#scatter\"") && has(page, "id=\"scatter\"") && has(page, "Best grips at their deviations"));
+  expect_well_formed(page.substr(page.find('\n') + 1));
+  options.folder = folder / "resumed";
+  ASSERT_EQ(run_some(7).code, ExitCode::interrupted);
+  options.resume = true;
+  EXPECT_EQ(run().code, ExitCode::done);
+  EXPECT_EQ(csv(), table);
+  // every row has what became of its grip's deviations
+  const auto rows = parse_csv(table);
+  const auto& names = rows[0].cells;
+  const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), "placements") - names.begin());
+  ASSERT_LT(at + 3, names.size());
+  int held = 0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    EXPECT_EQ(rows[k].cells[at], "4");
+    EXPECT_LE(std::stoi(rows[k].cells[at + 1]) + std::stoi(rows[k].cells[at + 3]), 4);
+    held += std::stoi(rows[k].cells[at + 1]);
+    EXPECT_GE(std::stod(rows[k].cells[at - 1]), 0) << "share of the deviations that hold by effort";
+  }
+  EXPECT_GT(held, 0);
 }
 
 TEST_F(TrialsTest, ResumesToTheSameBits) {
@@ -213,6 +260,11 @@ TEST_F(TrialsTest, AJournalOfOtherTrialsIsRefused) {
   options.seed = 5;
   refused("choice of grips, another seed");
   options.seed = 1;
+  scene.robust.emplace().height = 1e-3;
+  options.scatter = 2;
+  refused("choice of grips, another number of deviations");
+  options.scatter = 0;
+  scene.robust.reset();
   options.tilts = {0, 1};
   refused("choice of states");
   options.tilts.clear();
