@@ -33,6 +33,7 @@
 #include "sweeps/cavity_notes.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/idle_notes.h"
+#include "sweeps/robust.h"
 #include "system/files.h"
 #include "system/output.h"
 #include "viewer/grips.h"
@@ -216,10 +217,11 @@ ExitCode grip(const GripArguments& arguments) {
     report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
   }
   add_holding(report, scene, vessel);
+  if (!arguments.json) add_held_share(report, scene, vessel);
   if (arguments.quality) add_quality(report, scene, vessel);
   write_drawings(arguments, scene, vessel, report);
   if (arguments.json && arguments.on != "core") say_note("on " + report.device);
-  print(arguments.json ? grip_json(report) + "\n" : grip_table(report));
+  print(arguments.json ? grip_json(report) + "\n" : grip_verdict(scene, report) + "\n" + grip_table(report));
   for (const std::string& path : {arguments.glb, arguments.svg}) {
     if (!path.empty() && !arguments.json) print(fmt::format("wrote {}\n", one_line(path)));
   }

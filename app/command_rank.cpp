@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/list_options.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
 #include "core/printable.h"
@@ -28,6 +29,7 @@ struct RankArguments {
   std::string result, weights, by, best, apart, glb, output;
   std::vector<std::string> where;
   bool least_bad = false;
+  ListArguments list;
 };
 
 // What can be refused before any work.
@@ -63,11 +65,16 @@ std::size_t usual_length(const SweepResult& result, const Scene& scene, const Pl
   return scene.output.best > 0 ? static_cast<std::size_t>(scene.output.best) : static_cast<std::size_t>(OutputData().best);
 }
 
-std::string ranking_text(const Scene& scene, const Plan& plan, const RankArguments& arguments, const Ranking& ranking) {
+std::string ranking_text(const Scene& scene, const Plan& plan, const RankArguments& arguments, const Ranking& ranking,
+                         const ListView& view) {
   std::string text;
   for (std::size_t list = 0; list < ranking.lists.size(); ++list) {
-    text += fmt::format("{}{}: ", list == 0 ? "" : "\n", list_name(scene, plan, list));
     const std::uint64_t plausible = ranking.plausible[list], not_held = ranking.not_held[list], held = plausible - not_held;
+    const std::string verdict = held == 0 && not_held > 0 && !arguments.least_bad
+                                    ? "no grip holds; --least-bad lists those that are nearest to it"
+                                : held > 0 && ranking.lists[list].empty() ? "no grip matches"
+                                                                          : verdict_text(scene, ranking.lists[list]);
+    text += fmt::format("{}{}: {}\n  ", list == 0 ? "" : "\n", list_name(scene, plan, list), verdict);
     const std::string of_these = not_held > 0 ? fmt::format(", {} not held", readable_number(not_held)) : "";
     if (arguments.where.empty()) {
       text += fmt::format("{} feasible and plausible{}\n", counted(plausible, "grip is", "grips are"),
@@ -77,15 +84,14 @@ std::string ranking_text(const Scene& scene, const Plan& plan, const RankArgumen
                           counted(held, "feasible, plausible grip", "feasible, plausible grips"), not_held > 0 ? " that hold" : "",
                           held == 1 ? "matches" : "match", of_these);
     }
-    if (held == 0 && not_held > 0 && !arguments.least_bad)
-      text += "  no grip holds; --least-bad lists those that are nearest to it\n";
-    text += list_lines(scene, plan, list / plan.hand_scales(), ranking.lists[list], arguments.output);
+    text += list_lines(scene, plan, list / plan.hand_scales(), ranking.lists[list], arguments.output, view);
   }
   return text;
 }
 
 ExitCode rank(const RankArguments& arguments) {
   check_rank_by(arguments.by);
+  ListView view = arguments.list.view();
   const int glb = arguments.glb.empty() ? 0 : static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (glb > 0 && arguments.output.empty())
     throw usage_error("--glb: the name of the list is missing, which also names the glTF files; give -o LIST.csv");
@@ -97,6 +103,7 @@ ExitCode rank(const RankArguments& arguments) {
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
   RankRequest request{arguments.weights, arguments.where, 0, 0, 0, arguments.least_bad, read_rank_by(arguments.by, scene)};
+  view.by = request.by;
   request.best = arguments.best.empty() ? usual_length(result, scene, plan)
                                         : static_cast<std::size_t>(parse_integer(arguments.best, "--best", {1, ranges::BEST.high}));
   if (glb > static_cast<int>(request.best))
@@ -114,7 +121,7 @@ ExitCode rank(const RankArguments& arguments) {
   const std::shared_ptr<const Evaluator> core = glb > 0 ? open_core() : nullptr;
   const Ranking ranking = rank_grips(result, scene, plan, request, open_core);
   if (!ranking.note.empty()) say_note(ranking.note);
-  print(ranking_text(scene, plan, arguments, ranking));
+  print(ranking_text(scene, plan, arguments, ranking, view));
   if (arguments.output.empty()) return ExitCode::done;
   std::vector<std::string> files{arguments.output};
   write_whole_file(arguments.output, best_csv(scene, plan, ranking.lists, list_origin(arguments.result, result.origin())), false);
@@ -145,6 +152,7 @@ void add_rank_command(CLI::App& app, Action& action) {
       "score, robust (10th percentile over the deviations of [robust]; the default where the scene has it), worst_effort or push")
       ->check(offered("score robust worst_effort push"));
   add("--best", arguments->best, "N", "Number of grips to list for each vessel (default: as many as the sweep listed)");
+  add_list_options(*command, arguments->list);
   add("--apart-mm", arguments->apart, "A",
       "List only grips that have some joint of the hand more than A from every grip before (default: the scene's; 0: any)");
   command->add_flag("--least-bad", arguments->least_bad, "Where no grip of a list holds, list those of the least worst effort");

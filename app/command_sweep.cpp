@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/list_options.h"
 #include "app/validators.h"
 #include "program/remedy.h"
 #include "program/values.h"
@@ -25,6 +26,7 @@ constexpr std::size_t MOST_SHARD_LETTERS = 100;  // a file's name has 255 at mos
 struct SweepArguments {
   std::string scene, output, on = ON_AUTO, precision, best, glb, threads, time_limit, mark_seconds, shard;
   bool resume = false, explain = false, no_refine = false, shards = false;
+  ListArguments list;
 };
 
 ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
@@ -33,6 +35,7 @@ ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
   options.on = arguments.on;
   if (!arguments.precision.empty()) options.precision = parse_precision(arguments.precision);
   if (!arguments.best.empty()) options.best = static_cast<int>(parse_integer(arguments.best, "--best", ranges::BEST));
+  options.list = arguments.list.view();
   if (!arguments.glb.empty()) options.glb = static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (!arguments.threads.empty())
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
@@ -66,8 +69,8 @@ CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Sweep
   command->add_option("--precision", arguments->precision, "float or double (default: float on a device, double on the core)")
       ->type_name("P")
       ->check(offered("float double"));
-  command->add_option("--best", arguments->best, "Number of grips to show and list for each vessel (default: the scene's)")
-      ->type_name("N");
+  command->add_option("--best", arguments->best, "Number of grips to list for each vessel (default: the scene's)")->type_name("N");
+  add_list_options(*command, arguments->list);
   command->add_option("--glb", arguments->glb, "Write the best N grips of each vessel as glTF: NAME.<vessel>.<rank>.glb")
       ->type_name("N");
   command->add_option("--threads", arguments->threads, "Number of threads of the core (default: all)")->type_name("N");

@@ -27,6 +27,7 @@ struct GripReport {
   std::vector<StateHold> holds;            // of answer.states; empty until add_holding
   std::optional<GripHold> hold;            // over the scene's states; nothing without tilts
   std::optional<GripQuality> quality;      // nothing until add_quality
+  std::optional<double> held_share;  // of the deviations of [robust] those that hold (sweeps/robust.h), where they were judged
 };
 
 // Evaluates the grip.
@@ -47,7 +48,11 @@ void add_quality(GripReport& report, const Scene& scene, std::size_t vessel);
 // out are null. Doubles read back as they were.
 std::string grip_json(const GripReport& report);
 
-// The same as tables, in mm, degrees, mL and g.
+// Whether the grip holds the vessel, with how much of the hand's strength, what fails first, and how sure that is: some sentences, each in a line.
+// `scene` is that of the report.
+std::string grip_verdict(const Scene& scene, const GripReport& report);
+
+// The same as the JSON object as tables, in mm, degrees, mL and g.
 std::string grip_table(const GripReport& report);
 
 // Horizontal direction towards which a tilt turns the vessel's mouth: away from the palm at roll 0, or towards it where the scene's

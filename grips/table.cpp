@@ -2,6 +2,7 @@
 // A grip report as tables, in the units that people read: mm, degrees, mL, g.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/joints.h"
@@ -243,7 +244,59 @@ void write_score(std::string& out, const GripReport& report) {
   }
 }
 
+// What of the hand and the vessel fails first, and by how much.
+std::string first_to_fail(const Scene& scene, const GripHold& hold) {
+  const char* fails = hold.worst <= 1 ? "would fail" : "fails";
+  const double strength = held_margin(hold.worst), friction = scene.force.friction / hold.friction_needed;
+  if (std::isfinite(hold.friction_needed) && friction < strength) {
+    return fmt::format("Friction {} first: the grip needs {:.3f}, and the vessel has {} (margin {}).\n", fails,
+                       hold.friction_needed, plain_text(scene.force.friction), fixed_text(friction, 2));
+  }
+  return fmt::format("The strength of the hand {} first (margin {}).\n", fails, fixed_text(strength, 2));
+}
+
+std::string hold_verdict(const Scene& scene, const GripReport& report) {
+  const GripHold& hold = *report.hold;
+  const std::string state = fmt::format("{}, {} deg", fill_words(report, hold.worst_fill), plain_text(degrees(hold.worst_tilt)));
+  if (std::isinf(hold.worst)) {
+    return fmt::format("Does not hold: the vessel slips in the hardest state ({}), whatever the hand's strength.\n{}.\n", state,
+                       std::isfinite(hold.friction_needed)
+                           ? fmt::format("A friction of {:.3f} would hold it, and the vessel has {}", hold.friction_needed,
+                                         plain_text(scene.force.friction))
+                           : std::string("No friction up to 10 would hold it"));
+  }
+  return fmt::format("{} {} in the hardest state ({}).\n{}", hold.worst <= 1 ? "Holds with" : "Does not hold: it takes",
+                     percent(hold.worst), state, first_to_fail(scene, hold));
+}
+
 }  // namespace
+
+std::string grip_verdict(const Scene& scene, const GripReport& report) {
+  const GripResult& result = report.answer.result;
+  if (result.reason != Reason::none) {
+    std::string reason = REASON_NAMES[static_cast<std::size_t>(result.reason)];
+    std::replace(reason.begin(), reason.end(), '_', ' ');
+    return fmt::format("Not feasible ({}): no hand holds the vessel here.\n", reason);
+  }
+  if (!result.plausible) {
+    return fmt::format("Not plausible: {}, so nobody can take this grip.\n",
+                       result.through_table  ? "the hand would go through the table"
+                       : result.beyond_wrist ? "no arm brings the hand there"
+                       : result.self_overlap ? "the fingers would be in each other"
+                                             : "the hand would be too deep in the vessel");
+  }
+  std::string text = report.hold ? hold_verdict(scene, report)
+                                 : fmt::format("Whether the grip holds is not judged: the scene has no {}.\n",
+                                               scene.strength ? "[tilts]" : "[strength]");
+  if (report.held_share) {
+    text += fmt::format("It {} in {} % of {} deviations from its place.\n", report.hold ? "holds" : "is plausible",
+                        fixed_text(std::floor(100 * *report.held_share), 0), scene.robust->count);
+  } else if (!scene.robust) {
+    text += "Off its place the grip is not judged: the scene has no [robust].\n";
+  }
+  if ((result.status & STATUS_CONTACT_UNDECIDED) != 0) text += "Rounding may decide whether a point of the hand is a contact.\n";
+  return text;
+}
 
 std::string grip_table(const GripReport& report) {
   const GripInput& grip = report.grip;

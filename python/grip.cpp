@@ -19,6 +19,7 @@
 #include "python/scene.h"
 #include "scene/fills.h"
 #include "scene/text.h"
+#include "sweeps/robust.h"
 #include "system/files.h"
 
 namespace py = pybind11;
@@ -98,7 +99,11 @@ class GripHandle {
   }
 
   std::string json() const { return grip_json(report_); }
-  std::string table() const { return grip_table(report_); }
+  std::string table() const {
+    GripReport judged = report_;
+    add_held_share(judged, scene_, vessel_);
+    return grip_verdict(scene_, judged) + "\n" + grip_table(judged);
+  }
   std::string svg() const { return grip_svg(scene_, vessel_, report_); }
   std::string glb() const { return grip_glb(scene_, vessel_, report_); }
 

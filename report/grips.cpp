@@ -119,7 +119,9 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
 }
 
 // One grip's drawing with what it shows in words; throws Error where it cannot be drawn.
-void draw_grip(MarkupWriter& html, const ReportSource& source, std::size_t list, const BestGrip& best, const GripReport& report) {
+void draw_grip(MarkupWriter& html, const ReportSource& source, std::size_t list, const BestGrip& best,
+               const std::vector<RankedReport>& reports, std::size_t k) {
+  const GripReport& report = reports[k].report;
   const std::string svg = front_and_side(grip_svg(source.scene, list / source.plan.hand_scales(), report));
   const DrawnForces forces(report);
   const std::string arrows = forces.empty() ? "" : fmt::format(" Arrows show the forces of the hand: {}.", forces.words());
@@ -131,7 +133,7 @@ void draw_grip(MarkupWriter& html, const ReportSource& source, std::size_t list,
   html.empty("img", {{"src", svg_address(svg)}, {"alt", alt}});
   html.element("p", fmt::format("{}: score {}; {}{}", best.rank, shown_number(best.score, 3), grip_text(source.plan, best.grip),
                                 forces.empty() ? "" : "; " + forces.words()));
-  if (const std::string text = verdict(source.scene, report); !text.empty()) html.element("p", text);
+  if (const std::string text = verdict(source.scene, report, reports); !text.empty()) html.element("p", text);
   html.close();
 }
 
@@ -144,7 +146,7 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
   bool has_forces = false;
   for (std::size_t rank = 0; rank < std::min(DRAWN_GRIPS, best.grips.size()); ++rank) {
     try {
-      draw_grip(drawings, source, list, best.grips[rank], reports[rank].report);
+      draw_grip(drawings, source, list, best.grips[rank], reports, rank);
     } catch (const Error& error) {
       trouble = error.what();
       continue;
@@ -177,7 +179,7 @@ void write_limits(MarkupWriter& html, const ReportSource& source, std::size_t li
   if (reports.size() == drawn) return;
   html.open("details").element("summary", "Why each of the other grips is good, and what would fail first").open("ul");
   for (std::size_t k = drawn; k < reports.size(); ++k) {
-    const std::string text = verdict(source.scene, reports[k].report);
+    const std::string text = verdict(source.scene, reports[k].report, reports);
     html.element("li", fmt::format("{}: {}", reports[k].rank, text.empty() ? "The core finds that it is not feasible." : text));
   }
   html.close().close();
@@ -270,8 +272,10 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
   if (source.core) {
     // all of them are told of where there are efforts, and otherwise the drawn ones alone are needed
     const std::size_t asked = tells_efforts(source.scene) ? best.grips.size() : std::min(DRAWN_GRIPS, best.grips.size());
-    for (std::size_t k = 0; k < asked; ++k)
+    for (std::size_t k = 0; k < asked; ++k) {
       reports.push_back({best.grips[k].rank, grip_with_holding(source, list / scales, best.grips[k].grip)});
+      if (!std::isnan(best.grips[k].robust.share)) reports.back().report.held_share = best.grips[k].robust.share;
+    }
     write_drawings(html, source, list, best, reports);
   }
   write_table(html, source, list, best);

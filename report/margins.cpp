@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/planes.h"
 #include "core/text.h"
@@ -26,8 +27,10 @@ constexpr const char* MARGINS_NOTE =
 
 constexpr double ENDLESS = std::numeric_limits<double>::infinity(), NO_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
-// Places of the terms in effective_weights.
-enum Term : std::size_t { FINGERS_TERM, CONTACTS_TERM, DEPTH_TERM, POSTURE_TERM, FORCE_TERM, HOLD_TERM, TERM_COUNT };
+// Places of the terms in effective_weights; and one more that may speak for a grip.
+enum Term : std::size_t { FINGERS_TERM, CONTACTS_TERM, DEPTH_TERM, POSTURE_TERM, FORCE_TERM, HOLD_TERM, SHARE_TERM };
+
+constexpr const char* NO_DEPTH = "0.0\u00a0mm";
 
 // How often `used` goes into `limit`, both at least 0.
 double times_within(double limit, double used) { return used > 0 ? limit / used : ENDLESS; }
@@ -43,49 +46,123 @@ double largest_normal_force(const GripReport& report) {
 
 std::string percent_text(double share) { return shown_number(100 * share, share < 0.0995 ? 1 : 0) + "\u00a0%"; }
 
-std::string strength_share(double effort) {
-  return fmt::format("the hardest state takes {} of the hand's strength", percent_text(effort));
+std::string strength_share(const std::string& percent) {
+  return fmt::format("the hardest state takes {} of the hand's strength", percent);
 }
 
-std::string depth_reason(double millimetres) {
-  if (millimetres < 0.05) return "the hand does not reach into the glass";
-  return fmt::format("the hand is at most {} mm deep in the glass", shown_number(millimetres, 1));
-}
+// A term that may speak for a grip: what it adds to the score, and its number as it is shown.
+struct Merit {
+  std::size_t term = 0;
+  double adds = 0;
+  std::string shown;
+};
 
-std::string term_reason(const Scene& scene, const GripReport& report, std::size_t term) {
+std::string term_number(const GripReport& report, std::size_t term) {
   const GripResult& result = report.answer.result;
   switch (term) {
     case FINGERS_TERM:
-      return fmt::format("{} of {} fingers touch the vessel", std::popcount(result.used_mask), FINGER_COUNT);
+      return std::to_string(std::popcount(result.used_mask));
     case CONTACTS_TERM:
-      return fmt::format("{} of {} points of the hand touch the vessel", std::popcount(result.touch_mask), JOINT_COUNT);
+      return std::to_string(std::popcount(result.touch_mask));
     case DEPTH_TERM:
-      return depth_reason(1e3 * std::max(result.phalanx_depth, result.palm_depth));
+      return shown_number(1e3 * std::max(result.phalanx_depth, result.palm_depth), 1) + "\u00a0mm";
     case POSTURE_TERM:
-      return fmt::format("the hand is near the middle of its range (closure {})", shown_number(result.closure, 2));
+      return shown_number(result.closure, 2);
     case FORCE_TERM:
-      return fmt::format("the gripper renders at most {} N of its {} N",
-                         shown_number(std::max(0.0, largest_normal_force(report)), 1), plain_number(scene.force.max));
+      return shown_number(std::max(0.0, largest_normal_force(report)), 1) + "\u00a0N";
+    case HOLD_TERM:
+      return percent_text(report.hold->worst);
     default:
-      return strength_share(report.hold->worst);
+      return percent_text(report.held_share.value_or(NO_NUMBER));
   }
 }
 
-// The terms that add most to the score, the most first; at most two. A term that adds nothing is no reason, nor is holding where the
-// worst effort is more than the hand has.
-std::vector<std::size_t> best_terms(const Scene& scene, const ScoreTerms& terms, double worst, std::optional<Limit> weakest) {
+std::string term_reason(const Scene& scene, const Merit& merit) {
+  const std::string& number = merit.shown;
+  switch (merit.term) {
+    case FINGERS_TERM:
+      return fmt::format("{} of {} fingers touch the vessel", number, FINGER_COUNT);
+    case CONTACTS_TERM:
+      return fmt::format("{} of {} points of the hand touch the vessel", number, JOINT_COUNT);
+    case DEPTH_TERM:
+      return number == NO_DEPTH ? "the hand does not reach into the glass"
+                                : fmt::format("the hand is at most {} deep in the glass", number);
+    case POSTURE_TERM:
+      return fmt::format("the hand is near the middle of its range (closure {})", number);
+    case FORCE_TERM:
+      return fmt::format("the gripper renders at most {} of its {}\u00a0N", number, plain_number(scene.force.max));
+    case HOLD_TERM:
+      return strength_share(number);
+    default:
+      return fmt::format("{} of its deviations hold", number);
+  }
+}
+
+// What each term adds to the score of a grip, and last the share of its deviations that hold: lists are ranked by what these score.
+std::vector<Merit> merits_of(const Scene& scene, const GripReport& report) {
+  const ScoreTerms& terms = report.answer.score.terms;
   const std::array<double, 6> weights = effective_weights(scene),
                               values{terms.fingers, terms.contacts, terms.depth, terms.posture, terms.force, terms.hold};
-  const auto adds = [&](std::size_t term) { return weights[term] * values[term]; };
-  std::vector<std::size_t> found;
-  for (std::size_t term = 0; term < TERM_COUNT; ++term) {
-    const bool is_weak = (term == FORCE_TERM && weakest == Limit::force) ||
-                         (term == HOLD_TERM && (weakest == Limit::effort || weakest == Limit::friction || !(worst <= 1)));
-    if (!is_weak && adds(term) > 0) found.push_back(term);
+  std::vector<Merit> merits;
+  for (std::size_t term = 0; term < values.size(); ++term)
+    merits.push_back({term, weights[term] * values[term], term_number(report, term)});
+  merits.push_back({SHARE_TERM, report.held_share.value_or(0), term_number(report, SHARE_TERM)});
+  return merits;
+}
+
+// Whether a merit is a reason. A grip is not praised for what it would fail by, nor for holding where that takes more than the hand has.
+bool is_reason(const Merit& merit, double worst, std::optional<Limit> weakest) {
+  const bool is_weak = (merit.term == FORCE_TERM && weakest == Limit::force) ||
+                       (merit.term == HOLD_TERM && (weakest == Limit::effort || weakest == Limit::friction || !(worst <= 1)));
+  return !is_weak && merit.adds > 0;
+}
+
+// The words for at most two terms: of those in which the grip is better than the median of its list, those in which it is better than most
+// grips, beside the median. Where there are fewer, also the one that adds most, which others of the list may share; it is no depth.
+std::vector<std::string> best_reasons(const Scene& scene, const GripReport& report, const std::vector<RankedReport>& list,
+                                      std::optional<Limit> weakest) {
+  std::vector<std::vector<Merit>> others;
+  for (const RankedReport& other : list)
+    if (other.report.hold) others.push_back(merits_of(scene, other.report));
+  struct Distinction {
+    Merit merit;
+    std::ptrdiff_t ahead_of = 0;  // grips of the list
+    double exceeds = 0;           // the median
+    std::string median;
+  };
+  std::vector<Distinction> found;
+  std::optional<Merit> shared;
+  bool is_as_median = false;  // what is shared; else it is less, for want of any other
+  for (const Merit& merit : merits_of(scene, report)) {
+    if (!is_reason(merit, report.hold->worst, weakest)) continue;
+    bool is_less = false;
+    if (!others.empty()) {
+      const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
+      std::nth_element(others.begin(), middle, others.end(),
+                       [&](const auto& a, const auto& b) { return a[merit.term].adds < b[merit.term].adds; });
+      const Merit& median = (*middle)[merit.term];
+      if (merit.adds > median.adds && merit.shown != median.shown) {
+        const auto ahead_of =
+            std::count_if(others.begin(), others.end(), [&](const auto& a) { return a[merit.term].adds < merit.adds; });
+        found.push_back({merit, ahead_of, merit.adds - median.adds, median.shown});
+        continue;
+      }
+      is_less = merit.adds < median.adds && merit.shown != median.shown;
+    }
+    const bool is_slight = merit.term == SHARE_TERM || (merit.term == DEPTH_TERM && merit.shown != NO_DEPTH);
+    if (is_slight || (shared && std::pair(is_as_median, shared->adds) >= std::pair(!is_less, merit.adds))) continue;
+    shared = merit;
+    is_as_median = !is_less;
   }
-  std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return adds(a) > adds(b); });
+  std::stable_sort(found.begin(), found.end(), [](const Distinction& a, const Distinction& b) {
+    return std::pair(a.ahead_of, a.exceeds) > std::pair(b.ahead_of, b.exceeds);
+  });
   found.resize(std::min<std::size_t>(found.size(), 2));
-  return found;
+  std::vector<std::string> words;
+  for (const Distinction& one : found)
+    words.push_back(fmt::format("{} (median of the list: {})", term_reason(scene, one.merit), one.median));
+  if (shared && (words.empty() || (words.size() < 2 && is_as_median))) words.push_back(term_reason(scene, *shared));
+  return words;
 }
 
 std::string worst_state(const Scene& scene, const GripReport& report) {
@@ -106,7 +183,7 @@ std::string limit_text(const Scene& scene, const GripReport& report, const Margi
         return fmt::format("no force of the hand holds the vessel {}", worst_state(scene, report));
       return fmt::format("{}, because {} {}",
                          is_kept ? "the strength of the hand would fail first" : "the strength of the hand fails",
-                         strength_share(report.hold->worst), shown);
+                         strength_share(percent_text(report.hold->worst)), shown);
     case Limit::friction:
       return fmt::format("{}, because the grip needs a friction of {} and the vessel has {} {}",
                          is_kept ? "friction would fail first" : "friction fails", shown_number(report.hold->friction_needed, 3),
@@ -147,14 +224,11 @@ std::optional<Margin> smallest_margin(const std::vector<Margin>& margins) {
   return *found;
 }
 
-std::string verdict(const Scene& scene, const GripReport& report) {
+std::string verdict(const Scene& scene, const GripReport& report, const std::vector<RankedReport>& list) {
   if (!report.hold) return "";
   const std::optional<Margin> weakest = smallest_margin(grip_margins(scene, report));
-  std::vector<std::string> reasons;
-  for (const std::size_t term :
-       best_terms(scene, report.answer.score.terms, report.hold->worst, weakest ? std::optional(weakest->limit) : std::nullopt)) {
-    reasons.push_back(term_reason(scene, report, term));
-  }
+  const std::vector<std::string> reasons =
+      best_reasons(scene, report, list, weakest ? std::optional(weakest->limit) : std::nullopt);
   if (weakest && weakest->value < 1 && !reasons.empty())
     return fmt::format("Although {}, {}.", joined(reasons, " and "), limit_text(scene, report, *weakest));
   std::string text =

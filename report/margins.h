@@ -30,15 +30,17 @@ std::vector<Margin> grip_margins(const Scene& scene, const GripReport& report);
 // The smallest, the first of equal ones; nothing where there is none or all are infinite.
 std::optional<Margin> smallest_margin(const std::vector<Margin>& margins);
 
-// "This grip is good because ..; friction would fail first, because .. (margin 1.9)." The reasons are the two terms of the score
-// that add most to it, without the term that the smallest margin is about. Where a limit is not kept: "Although .., friction fails, because ..". Empty for a grip without holds.
-std::string verdict(const Scene& scene, const GripReport& report);
-
 // A grip of a list, with its place there.
 struct RankedReport {
   std::size_t rank = 1;
   GripReport report;
 };
+
+// "This grip is good because ..; friction would fail first, because .. (margin 1.9)." The reasons are at most two terms of the score, or the
+// share of the deviations that hold, in which the grip is better than the median of its list, first where it is better than most grips. Where
+// there is one or none, the term that adds most to the score follows. The term that the smallest margin is about is no reason. Where a limit is
+// not kept: "Although .., friction fails, because ..". Empty for a grip without holds.
+std::string verdict(const Scene& scene, const GripReport& report, const std::vector<RankedReport>& list);
 
 // A table of margins, and of the efforts that they come from; nothing where no grip has holds. `name`: of the list.
 void write_margins(MarkupWriter& html, const Scene& scene, const std::vector<RankedReport>& grips, const std::string& name);

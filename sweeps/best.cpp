@@ -45,9 +45,32 @@ std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::form
 
 // A column of the table.
 struct Column {
+  // Whether a table that is not wide has it: always, or where there is room, first those that come first here.
+  enum Place { always, effort, held_share, safe_tilt, fingers, gap, wide_only };
+
   std::string title;
   std::string (*cell)(const BestGrip& best);
+  Place place = wide_only;
 };
+
+constexpr std::size_t MOST_COLUMNS = 10, MOST_LETTERS = 99;  // of a table that is not wide
+constexpr const char* RANK_TITLE = "  rank";
+
+// Leaves those for which there is room beside the rank.
+void narrow(std::vector<Column>& columns) {
+  std::erase_if(columns, [](const Column& column) { return column.place == Column::wide_only; });
+  const auto is_too_wide = [&] {
+    std::size_t letters = std::string_view(RANK_TITLE).size();
+    for (const Column& column : columns) letters += 2 + column.title.size();
+    return columns.size() + 1 > MOST_COLUMNS || letters > MOST_LETTERS;
+  };
+  while (is_too_wide()) {
+    const auto last =
+        std::max_element(columns.begin(), columns.end(), [](const Column& a, const Column& b) { return a.place < b.place; });
+    if (last->place == Column::always) return;
+    columns.erase(last);
+  }
+}
 
 }  // namespace
 
@@ -171,17 +194,22 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
   return csv;
 }
 
-std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, std::size_t rows) {
-  std::vector<Column> columns{{"score", [](const BestGrip& b) { return fixed_text(b.score, 3); }}};
+RankBy usual_order(const Scene& scene) { return scene.robust ? RankBy::robust : RankBy::score; }
+
+std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, const ListView& view) {
+  const bool is_robust = view.by == RankBy::robust;
+  const auto if_so = [](bool is_so, Column::Place place = Column::always) { return is_so ? place : Column::wide_only; };
+  std::vector<Column> columns{{"score", [](const BestGrip& b) { return fixed_text(b.score, 3); }, if_so(!is_robust)}};
   if (std::any_of(best.begin(), best.end(), [](const BestGrip& b) { return !std::isnan(b.refined_score); }))
     columns.push_back({"refined", [](const BestGrip& b) { return fixed_text(b.refined_score, 3); }});
   if (scene.robust) {
-    columns.push_back({"robust low", [](const BestGrip& b) { return fixed_text(b.robust.low, 3); }});
+    columns.push_back({"robust", [](const BestGrip& b) { return fixed_text(b.robust.low, 3); }, if_so(is_robust)});
     columns.push_back({"mean", [](const BestGrip& b) { return fixed_text(b.robust.mean, 3); }});
-    columns.push_back({"holds %", [](const BestGrip& b) { return fixed_text(100 * b.robust.share, 0); }});
+    columns.push_back(
+        {"holds %", [](const BestGrip& b) { return fixed_text(100 * b.robust.share, 0); }, if_so(is_robust, Column::held_share)});
   }
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
-    if (plan.varies(place)) columns.push_back({title, cell});
+    if (plan.varies(place)) columns.push_back({title, cell, Column::always});
   };
   axis(PLACE_HEIGHT, "height mm", [](const BestGrip& b) { return fixed_text(b.grip.height * 1e3, 1); });
   axis(PLACE_AZIMUTH, "azimuth deg", [](const BestGrip& b) { return fixed_text(degrees(b.grip.azimuth), 1); });
@@ -192,32 +220,31 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
     axis(PLACE_HAND_SCALE, "hand scale", [](const BestGrip& b) { return fixed_text(b.grip.hand_scale, 3); });
   columns.insert(columns.end(),
                  {
-                     {"fingers", [](const BestGrip& b) { return std::to_string(b.fingers_used); }},
+                     {"fingers", [](const BestGrip& b) { return std::to_string(b.fingers_used); }, Column::fingers},
                      {"points", [](const BestGrip& b) { return std::to_string(b.points_touching); }},
                      {"depth mm", [](const BestGrip& b) { return fixed_text(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1); }},
                      {"closure", [](const BestGrip& b) { return fixed_text(b.closure, 2); }},
-                     {"gap mm", [](const BestGrip& b) { return fixed_text(b.gap * 1e3, 1); }},
+                     {"gap mm", [](const BestGrip& b) { return fixed_text(b.gap * 1e3, 1); }, Column::gap},
                  });
   // with tilts an infinite hold says it
   if (scene.tilts.empty())
-    columns.push_back({"antipodal", [](const BestGrip& b) { return std::string(b.antipodal ? "yes" : "no"); }});
+    columns.push_back({"antipodal", [](const BestGrip& b) { return std::string(b.antipodal ? "yes" : "no"); }, Column::always});
   if (!scene.tilts.empty()) {
-    columns.insert(columns.end(),
-                   {
-                       {"peak N", [](const BestGrip& b) { return fixed_text(b.peak_force, 2); }},
-                       {"hold N", [](const BestGrip& b) { return fixed_text(b.largest_hold, 1); }},
-                       {"safe deg", [](const BestGrip& b) { return range_text(degrees(b.safe_tilt), b.is_safe_to_end); }},
-                   });
+    columns.push_back({"peak N", [](const BestGrip& b) { return fixed_text(b.peak_force, 2); }});
+    columns.push_back({"hold N", [](const BestGrip& b) { return fixed_text(b.largest_hold, 1); }, if_so(!has_effort(scene))});
+    columns.push_back(
+        {"safe deg", [](const BestGrip& b) { return range_text(degrees(b.safe_tilt), b.is_safe_to_end); }, Column::safe_tilt});
   }
   if (has_effort(scene)) {
-    columns.push_back({"effort", [](const BestGrip& b) { return fixed_text(b.efforts.worst, 3); }});
+    columns.push_back({"effort", [](const BestGrip& b) { return fixed_text(b.efforts.worst, 3); }, Column::effort});
     columns.push_back({"margin", [](const BestGrip& b) { return fixed_text(held_margin(b.efforts.worst), 2); }});
-    columns.push_back({"push N", [](const BestGrip& b) { return fixed_text(b.efforts.push, 1); }});
+    columns.push_back({"push N", [](const BestGrip& b) { return fixed_text(b.efforts.push, 1); }, if_so(view.by == RankBy::push)});
   }
-  std::string table = "  rank";
+  if (!view.is_wide) narrow(columns);
+  std::string table = RANK_TITLE;
   for (const Column& column : columns) table += "  " + column.title;
   table += '\n';
-  for (std::size_t rank = 0; rank < std::min(rows, best.size()); ++rank) {
+  for (std::size_t rank = 0; rank < std::min(view.rows, best.size()); ++rank) {
     table += fmt::format("  {:>4}", best[rank].rank);
     for (const Column& column : columns) table += fmt::format("  {:>{}}", column.cell(best[rank]), column.title.size());
     table += '\n';

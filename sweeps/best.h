@@ -82,7 +82,20 @@ struct ListOrigin {
 std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
                      const ListOrigin& origin);
 
-// The table of one list for a terminal: at most `rows` grips, only the axes that vary within it.
-std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, std::size_t rows);
+// By what a list is ranked: the largest score, the largest robust scores (sweeps/robust.h), the least worst_effort, or the largest push.
+enum class RankBy { score, robust, worst_effort, push };
+// That of a sweep: `robust` in a scene with [robust], else `score`.
+RankBy usual_order(const Scene& scene);
+
+// What a terminal shows of a list.
+struct ListView {
+  std::size_t rows = 5;  // at most
+  bool is_wide = false;  // all columns, however wide the lines get
+  RankBy by = RankBy::score;
+};
+
+// The table of one list for a terminal, with only the axes that vary. Unless it is wide, it has ten columns at most, in less than 100 letters: what
+// the list is ranked by, the axes, and of the rest what there is room for.
+std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, const ListView& view);
 
 }  // namespace wholehand

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/printable.h"
 #include "sweeps/edge.h"
@@ -15,7 +16,7 @@
 namespace wholehand {
 namespace {
 
-constexpr std::size_t TABLE_ROWS = 20;  // best grips shown of a list; its file has them all
+constexpr double SURE_SHARE = 0.95;  // of the deviations of a grip, from which on its holding is sure
 
 double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); }
 
@@ -50,12 +51,31 @@ std::string vessel_lines(const Scene& scene, const std::vector<VesselFacts>& fac
   return text;
 }
 
+std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best) {
+  if (best.empty()) return has_effort(scene) ? "no grip is feasible and plausible and holds" : "no grip is feasible and plausible";
+  const BestGrip& first = best.front();
+  if (!has_effort(scene)) {
+    return fmt::format("whether it holds is not judged without {}; grip {} scores {}", scene.strength ? "[tilts]" : "[strength]",
+                       first.rank, fixed_text(first.score, 3));
+  }
+  const double effort = first.efforts.worst, share = first.robust.share;
+  if (std::isinf(effort)) return fmt::format("no grip holds; no force of the hand holds it in grip {}", first.rank);
+  const std::string strength =
+      fmt::format("{} % of the hand's strength (margin {})", fixed_text(100 * effort, 0), fixed_text(held_margin(effort), 2));
+  if (!(effort <= 1)) return fmt::format("no grip holds; grip {} takes {}", first.rank, strength);
+  return fmt::format("grip {} holds with {}{}", first.rank, strength,
+                     !std::isnan(share) ? fmt::format("{} in {}{} % of its deviations", share < SURE_SHARE ? ", but" : " and",
+                                                      share < SURE_SHARE ? "only " : "", fixed_text(std::floor(100 * share), 0))
+                     : scene.robust     ? ""
+                                        : "; not judged off its place");
+}
+
 std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<BestGrip>& best,
-                       const std::string& file) {
+                       const std::string& file, const ListView& view) {
   if (best.empty()) return "";
-  std::string text = best_table(scene, plan, best, TABLE_ROWS);
-  if (best.size() > TABLE_ROWS)
-    text += fmt::format("  .. {} more{}\n", readable_number(best.size() - TABLE_ROWS),
+  std::string text = best_table(scene, plan, best, view);
+  if (best.size() > view.rows)
+    text += fmt::format("  .. {} more{}\n", readable_number(best.size() - view.rows),
                         file.empty() ? "; -o FILE writes all of them" : " in " + one_line(file));
   std::vector<Candidate> candidates;
   for (const BestGrip& grip : best) candidates.push_back(grip.candidate);
@@ -63,14 +83,14 @@ std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
   return edge.empty() ? text : text + "  " + edge + "\n";
 }
 
-std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<std::vector<BestGrip>>& lists,
-                       const std::string& file) {
-  std::string text;
-  for (std::size_t s = 0; s < plan.hand_scales(); ++s) {
-    const std::size_t list = vessel * plan.hand_scales() + s;
-    const std::string lines = list_lines(scene, plan, vessel, lists[list], file);
-    if (plan.hand_scales() > 1 && !lines.empty()) text += list_name(scene, plan, list) + ":\n";
-    text += lines;
+std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::string& counts,
+                       const std::vector<std::vector<BestGrip>>& lists, const std::string& file, const ListView& view) {
+  const std::size_t scales = plan.hand_scales();
+  std::string text = scales == 1 ? "" : scene.vessels[vessel].name + ": " + counts + "\n";
+  for (std::size_t list = vessel * scales; list < (vessel + 1) * scales; ++list) {
+    text += list_name(scene, plan, list) + ": " + verdict_text(scene, lists[list]) + "\n";
+    if (scales == 1) text += "  " + counts + "\n";
+    text += list_lines(scene, plan, vessel, lists[list], file, view);
   }
   return text;
 }

@@ -27,14 +27,18 @@ std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInf
 // What each vessel holds and weighs, a line each.
 std::string vessel_lines(const Scene& scene, const std::vector<VesselFacts>& facts);
 
+// Whether the first grip of a list holds, by what margin and how surely: "grip 1 holds with 21 % of the hand's strength (margin 4.78) and in 97 % of
+// its deviations". A list without grips lacks them for want of grips that may be listed.
+std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best);
+
 // What is printed of a list of a vessel's best grips: the table of the first, how many more are in `file` ("" where there is none), and whether the best
 // lies at an end of an axis. Empty for an empty list.
 std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<BestGrip>& best,
-                       const std::string& file);
+                       const std::string& file, const ListView& view);
 
-// The same of all lists of a vessel, with the hand scale above each where there are several. `lists`: of all vessels, as of GripLists.
-std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<std::vector<BestGrip>>& lists,
-                       const std::string& file);
+// A vessel's verdict, its counts and its list; of several hand scales a verdict and a list of each. `lists`: of all vessels, as of GripLists.
+std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::string& counts,
+                       const std::vector<std::vector<BestGrip>>& lists, const std::string& file, const ListView& view);
 
 // The files with the size of the first, the times, and what the process took: CPU seconds and its largest memory.
 std::string closing_lines(const std::vector<std::string>& files, const SweepTimes& times);

@@ -314,10 +314,7 @@ void rank_by_robust(const Scene& scene, const Plan& plan, const std::array<doubl
                     std::vector<std::vector<BestGrip>>& lists) {
   double factor = 1;
   const Scene weighted = with_weights(scene, weights, factor);
-  const OpenBackend open = [](const Scene& other, const FieldSet& fields) {
-    return std::make_unique<CoreBackend>(make_core_evaluator(other), other, fields, Precision::full, 0);
-  };
-  rank_robustly(open, weighted, plan, best, nullptr, lists);
+  rank_robustly(open_core_for, weighted, plan, best, nullptr, lists);
   for (auto& list : lists)
     for (BestGrip& grip : list) {
       grip.robust.mean *= factor;
@@ -426,7 +423,7 @@ void check_rank_by(const std::string& text) {
 
 RankBy read_rank_by(const std::string& text, const Scene& scene) {
   check_rank_by(text);
-  if (text.empty()) return scene.robust ? RankBy::robust : RankBy::score;
+  if (text.empty()) return usual_order(scene);
   if (text == "score") return RankBy::score;
   const bool needs_effort = text == "worst_effort" || text == "push";
   if (text == "robust" && !scene.robust)

@@ -24,9 +24,6 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene);
 // What a condition may name: every variable of the catalogue, and the axes. Whatever the file lacks is there with the reason.
 std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan);
 
-// By what a list is ranked: the largest score, the largest robust scores (sweeps/robust.h), the least worst_effort, or the largest push.
-enum class RankBy { score, robust, worst_effort, push };
-
 // From "score", "robust", "worst_effort" or "push"; empty: "robust" in a scene with [robust], else "score". Throws Error (usage), also
 // for what the scene does not have.
 RankBy read_rank_by(const std::string& text, const Scene& scene);

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "core/core_backend.h"
 #include "core/error.h"
 #include "core/normal.h"
 #include "core/planes.h"
@@ -290,6 +291,20 @@ bool rank_robustly(const OpenBackend& open, const Scene& scene, const Plan& plan
   if (!ranking.run()) return false;
   ranking.rank();
   return true;
+}
+
+std::unique_ptr<Backend> open_core_for(const Scene& scene, const FieldSet& fields) {
+  return std::make_unique<CoreBackend>(make_core_evaluator(scene), scene, fields, Precision::full, 0);
+}
+
+void add_held_share(GripReport& report, const Scene& scene, std::size_t vessel) {
+  if (!scene.robust || !report.answer.result.plausible) return;
+  const Plan plan(scene, false);
+  std::vector<std::vector<BestGrip>> lists(scene.vessels.size() * plan.hand_scales());
+  const std::size_t own = vessel * plan.hand_scales();
+  lists[own].emplace_back().grip = report.grip;
+  rank_robustly(open_core_for, scene, plan, 1, nullptr, lists);
+  report.held_share = lists[own].front().robust.share;
 }
 
 }  // namespace wholehand

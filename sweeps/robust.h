@@ -11,6 +11,7 @@
 
 #include "core/backend.h"
 #include "core/scene.h"
+#include "grips/report.h"
 #include "sweeps/best.h"
 #include "sweeps/plan.h"
 
@@ -59,5 +60,11 @@ using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const F
 // where the backend delivers fewer.
 bool rank_robustly(const OpenBackend& open, const Scene& scene, const Plan& plan, std::size_t best, const std::atomic<bool>* stop,
                    std::vector<std::vector<BestGrip>>& lists, const std::function<void()>& look = {});
+
+// An OpenBackend: the core, on all threads.
+std::unique_ptr<Backend> open_core_for(const Scene& scene, const FieldSet& fields);
+
+// Sets the share of the deviations of a report's grip that hold, by the core. Does nothing for a grip that is not plausible, and without [robust].
+void add_held_share(GripReport& report, const Scene& scene, std::size_t vessel);
 
 }  // namespace wholehand

@@ -536,8 +536,15 @@ std::string Sweep::unheld(std::size_t v) const {
   int kept = 0;
   for (const Variable* variable : variables_)
     for (const std::string_view name : {"plausible", "not_held", "worst_effort"}) kept += variable->name == name ? 1 : 0;
-  return fmt::format("{}: {}{}", scene_.vessels[v].name, unheld_line(*core, scene_, plan(), v, counts.least_bad),
+  return fmt::format("{}{}", unheld_line(*core, scene_, plan(), v, counts.least_bad),
                      kept == 3 ? fmt::format("; `wholehand rank {} --least-bad` lists such grips", one_line(names_.result)) : "");
+}
+
+std::string Sweep::counts_text(std::size_t v) const {
+  const GripCounts& counts = mark_.vessels[v].counts;
+  const bool is_known = has_field(FIELD_STATUS);
+  return options_.list.is_wide ? counts_line(counts, is_known, plan().copies())
+                               : short_counts_line(counts, is_known, plan().copies(), has_effort(scene_));
 }
 
 void Sweep::finish(ResultFile& file, BestLists best) {
@@ -558,10 +565,15 @@ void Sweep::finish(ResultFile& file, BestLists best) {
   if (is_marked_ || is_parted) save(file);  // which now vouches for the ending, too
   if (!is_parted) file.finish(std::move(checksums_));
   files.insert(files.begin(), is_parted ? names_.partial : names_.result);
+  ListView view = options_.list;
+  view.by = usual_order(scene_);
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
-    const std::string counts = counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan().copies());
-    print_text(fmt::format("\n{}: {}\n{}", scene_.vessels[v].name, counts, best_lines(scene_, plan(), v, best, names_.best)));
-    if (const std::string line = unheld(v); !line.empty()) is_quiet() ? note(line) : print_text(line + "\n");
+    const std::string& name = scene_.vessels[v].name;
+    const std::string failure = unheld(v), counts = counts_text(v);
+    if (is_quiet() && !failure.empty()) note(name + ": " + failure);
+    print_text("\n" + (!failure.empty()    ? fmt::format("{}: {}\n  {}\n", name, failure, counts)
+                       : best_wanted_ == 0 ? fmt::format("{}: {}\n", name, counts)
+                                           : best_lines(scene_, plan(), v, counts, best, names_.best, view)));
   }
   // kernels that ran while the file was being written cost no time of their own
   const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};

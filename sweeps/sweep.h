@@ -124,6 +124,7 @@ class Sweep {
   std::vector<int> swept_fields() const;
   bool has_score() const;
   std::string unheld(std::size_t vessel) const;
+  std::string counts_text(std::size_t vessel) const;
   MarkBounds bounds() const;
   void announce_check() const;
   bool repair(ResultFile& file, InterruptGuard& interrupt);

@@ -10,6 +10,7 @@
 
 #include "core/backend.h"
 #include "core/scene.h"
+#include "sweeps/best.h"
 #include "system/clock.h"
 
 namespace wholehand {
@@ -24,6 +25,7 @@ struct SweepOptions {
   int glb = 0;                         // so many of the best of each vessel are written as glTF
   bool resume = false;
   bool explain = false;
+  ListView list = {};  // what is printed of each list; `by` is not read: a sweep's lists have the usual order
   bool refine = true;  // the best grips, see sweeps/refine.h
   int threads = 0;     // of the core, 0: all
   // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.

@@ -42,39 +42,62 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& co
 
 namespace {
 
-// " (200 through the table, 90 only too deep)"; empty where nothing is known of them.
-std::string implausible_parts(const GripCounts& counts) {
-  std::string parts;
-  const auto add = [&](std::uint64_t count, const char* what) {
-    if (count > 0) parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", readable_number(count), what);
-  };
-  add(counts.through_table, "through the table");
-  add(counts.self_overlap, "with fingers in each other");
-  add(counts.beyond_wrist, "beyond the wrist");
-  add(counts.only_deep, "only too deep");
-  return parts.empty() ? "" : " (" + parts + ")";
+// Parts of a line that count something, with commas between.
+class Counted {
+ public:
+  void add(std::uint64_t count, const std::string& what) {
+    if (count > 0) text_ += fmt::format("{}{} {}", text_.empty() ? "" : ", ", readable_number(count), what);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void add_reasons(const GripCounts& counts, Counted& parts) {
+  for (std::size_t reason = 1; reason < counts.by_reason.size(); ++reason) {
+    std::string name = REASON_NAMES[reason];
+    for (char& c : name) c = c == '_' ? ' ' : c;
+    parts.add(counts.by_reason[reason], name);
+  }
+}
+
+std::string all_grips(const GripCounts& counts, std::uint64_t azimuths) {
+  return counted(counts.grips, "grip") + (azimuths > 1 ? fmt::format(" (each at {} azimuths)", readable_number(azimuths)) : "");
 }
 
 }  // namespace
 
 std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths) {
-  const std::string at = azimuths > 1 ? fmt::format(" (each at {} azimuths)", readable_number(azimuths)) : "";
-  if (!reasons_known) return counted(counts.grips, "grip") + at;
-  std::string line = fmt::format("{} of {}{} feasible", readable_number(counts.by_reason[0]), counted(counts.grips, "grip"), at);
-  std::string reasons;
-  for (std::size_t reason = 1; reason < counts.by_reason.size(); ++reason) {
-    if (counts.by_reason[reason] == 0) continue;
-    std::string name = REASON_NAMES[reason];
-    for (char& c : name) c = c == '_' ? ' ' : c;
-    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", readable_number(counts.by_reason[reason]), name);
-  }
-  if (!reasons.empty()) line += " (" + reasons + ")";
+  if (!reasons_known) return all_grips(counts, azimuths);
+  Counted reasons, parts;
+  add_reasons(counts, reasons);
+  std::string line = fmt::format("{} of {} feasible", readable_number(counts.by_reason[0]), all_grips(counts, azimuths));
+  if (!reasons.text().empty()) line += " (" + reasons.text() + ")";
   if (counts.by_reason[0] == 0) return line;
-  line += fmt::format("; of these {} implausible{}", readable_number(counts.implausible), implausible_parts(counts));
+  parts.add(counts.through_table, "through the table");
+  parts.add(counts.self_overlap, "with fingers in each other");
+  parts.add(counts.beyond_wrist, "beyond the wrist");
+  parts.add(counts.only_deep, "only too deep");
+  line += fmt::format("; of these {} implausible{}", readable_number(counts.implausible),
+                      parts.text().empty() ? "" : " (" + parts.text() + ")");
   if (counts.not_held > 0) line += fmt::format(", {} not held", readable_number(counts.not_held));
   line += fmt::format(", {} antipodal", readable_number(counts.antipodal));
   if (counts.blocked > 0) line += fmt::format(", {} with a blocked finger", readable_number(counts.blocked));
   return line;
+}
+
+std::string short_counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths, bool judges_holding) {
+  if (!reasons_known) return all_grips(counts, azimuths);
+  Counted parts;
+  parts.add(counts.not_held, "not held");
+  parts.add(counts.through_table, "through the table");
+  parts.add(counts.self_overlap, "with fingers in each other");
+  parts.add(counts.beyond_wrist, "beyond the wrist");
+  parts.add(counts.only_deep, "too deep");
+  add_reasons(counts, parts);
+  return fmt::format("{} of {} {}{}{}", readable_number(counts.plausible() - counts.not_held), all_grips(counts, azimuths),
+                     judges_holding ? "hold" : "are plausible", parts.text().empty() ? "" : "; ", parts.text());
 }
 
 }  // namespace wholehand

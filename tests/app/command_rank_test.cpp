@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "scene/shipped.h"
 #include "system/json.h"
@@ -99,6 +101,31 @@ TEST_F(CommandRank, TheRefinedGripIsEvaluatedOnRequest) {
   EXPECT_EQ(refined["score"], read_values(result, "best_refined_score")[0]);
   ASSERT_EQ(run("PROGRAM sweep small --on core --best 4 --no-refine -o " + result + " >/dev/null").code, 0);
   expect_error("grip " + result + " --vessel tumbler --rank 1 --refined", 2, "has no refined grip of rank 1");
+}
+
+// The terminal has a part of what the file has.
+TEST_F(CommandRank, RowsAndColumnsAreShownOnRequest) {
+  const auto shown = [](const std::string& command) {  // the rows of the list
+    std::istringstream output(run("PROGRAM " + command).output);
+    std::vector<std::string> rows;
+    bool is_list = false;
+    for (std::string line; std::getline(output, line); is_list = is_list || line.starts_with("  rank"))
+      if (is_list && line.find_first_not_of(' ') == 5) rows.push_back(line);
+    return rows;
+  };
+  const std::string rank = "rank " + result + " --best 7 --apart-mm 0", sweep = "sweep small --on core -o " + (folder / "b.nc");
+  EXPECT_EQ(shown(rank).size(), 5u);
+  EXPECT_EQ(shown(rank + " --list 6").size(), 6u);
+  EXPECT_EQ(shown(rank + " --list 100").size(), 7u) << "there are no more";
+  for (const std::string& command : {rank, sweep}) {
+    const auto usual = shown(command), few = shown(command + " --list 2 --wide");
+    ASSERT_EQ(few.size(), 2u) << command;
+    EXPECT_GT(usual.size(), 2u);
+    EXPECT_LT(usual[0].size(), 100u);
+    EXPECT_GT(few[0].size(), usual[0].size());
+    for (const char* bad : {"0", "-1", "2.5", "five", "1000000"})
+      expect_error(command + " --list=" + bad, 2, std::string("--list '") + bad + "'; allowed: a whole number, 1 to 100000");
+  }
 }
 
 TEST_F(CommandRank, WhatIsWrongIsOneLineAndNothingIsWritten) {

@@ -457,5 +457,61 @@ TEST(GripReport, PlanesGiveWhatTheCoreGives) {
   EXPECT_THROW(planes.answer(0, {0.05, 0, 0, 0, 0, 1}, other), Error);
 }
 
+// The first sentences say what a person asks first.
+TEST(GripVerdict, SaysWhetherItHoldsWhatFailsFirstAndHowSurely) {
+  Scene scene = plain_scene(true, true);
+  scene.force.friction = 0.6;
+  GripReport report = report_of(scene, feasible_result());
+  const std::string unsure = "Off its place the grip is not judged: the scene has no [robust].\n";
+  EXPECT_EQ(grip_verdict(scene, report), "Whether the grip holds is not judged: the scene has no [strength].\n" + unsure);
+  scene.strength.emplace();
+  report.hold = GripHold{};
+  report.hold->worst = 0.25;
+  report.hold->worst_fill = 0.5;
+  report.hold->worst_tilt = radians(90);
+  report.hold->friction_needed = 0.1;
+  const std::string holds = "Holds with 25.00 % of the hand's strength in the hardest state (fill 0.5, 90 deg).\n";
+  EXPECT_EQ(grip_verdict(scene, report), holds + "The strength of the hand would fail first (margin 4.00).\n" + unsure);
+  report.hold->friction_needed = 0.4;
+  EXPECT_EQ(grip_verdict(scene, report),
+            holds + "Friction would fail first: the grip needs 0.400, and the vessel has 0.6 (margin 1.50).\n" + unsure);
+  scene.robust.emplace();
+  report.answer.result.status |= STATUS_CONTACT_UNDECIDED;
+  report.held_share = 0.955;
+  EXPECT_TRUE(grip_verdict(scene, report)
+                  .ends_with("It holds in 95 % of 64 deviations from its place.\n"
+                             "Rounding may decide whether a point of the hand is a contact.\n"))
+      << grip_verdict(scene, report);
+}
+
+TEST(GripVerdict, SaysWhyItDoesNotHold) {
+  Scene scene = plain_scene(true, true);
+  scene.strength.emplace();
+  scene.robust.emplace();
+  scene.force.friction = 0.6;
+  GripReport report = report_of(scene, feasible_result());
+  report.hold = GripHold{};
+  report.hold->worst = 1.25;
+  report.hold->friction_needed = 0.7;
+  EXPECT_EQ(grip_verdict(scene, report),
+            "Does not hold: it takes 125.00 % of the hand's strength in the hardest state (empty, 0 deg).\n"
+            "The strength of the hand fails first (margin 0.80).\n");
+  report.hold->friction_needed = 0.8;
+  EXPECT_TRUE(
+      grip_verdict(scene, report).ends_with("Friction fails first: the grip needs 0.800, and the vessel has 0.6 (margin 0.75).\n"));
+  report.hold->worst = std::numeric_limits<double>::infinity();
+  const std::string slips = "Does not hold: the vessel slips in the hardest state (empty, 0 deg), whatever the hand's strength.\n";
+  EXPECT_EQ(grip_verdict(scene, report), slips + "A friction of 0.800 would hold it, and the vessel has 0.6.\n");
+  report.hold->friction_needed = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(grip_verdict(scene, report), slips + "No friction up to 10 would hold it.\n");
+  report.answer.result.plausible = false;
+  EXPECT_EQ(grip_verdict(scene, report),
+            "Not plausible: the hand would be too deep in the vessel, so nobody can take this grip.\n");
+  report.answer.result.through_table = true;
+  EXPECT_EQ(grip_verdict(scene, report), "Not plausible: the hand would go through the table, so nobody can take this grip.\n");
+  report.answer.result.reason = Reason::too_wide;
+  EXPECT_EQ(grip_verdict(scene, report), "Not feasible (too wide): no hand holds the vessel here.\n");
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -47,7 +47,8 @@ struct JudgedGrip {
   Scene scene;
   GripReport report;
 
-  std::string text() const { return verdict(scene, report); }
+  // In a list of grips.
+  std::string text(const std::vector<RankedReport>& list = {}) const { return verdict(scene, report, list); }
   double margin(Limit limit) const {
     for (const Margin& margin : grip_margins(scene, report))
       if (margin.limit == limit) return margin.value;
@@ -105,8 +106,8 @@ TEST(ReportMargins, TheSmallestDecidesAndTheFirstOfEqualOnes) {
 
 TEST(ReportVerdict, NamesTheTable) {
   EXPECT_EQ(JudgedGrip().text(),
-            "This grip is good because 4 of 5 fingers touch the vessel and the hand is at most 0.4 mm deep in the glass; the table "
-            "would be in the way first, because the hand has 6.0 mm of room above its clearance (margin 1.60).");
+            "This grip is good because 4 of 5 fingers touch the vessel; the table would be in the way first, because the hand has "
+            "6.0 mm of room above its clearance (margin 1.60).");
   JudgedGrip grip;
   grip.report.answer.result.table_depth = 1.5e-3;
   EXPECT_TRUE(has(grip.text(), ", the table is in the way, because the hand is 1.5 mm too low (margin 0.85)."));
@@ -114,9 +115,11 @@ TEST(ReportVerdict, NamesTheTable) {
 
 TEST(ReportVerdict, AHandThatIsNowhereDeepIsSaidSo) {
   JudgedGrip grip;
+  grip.report.answer.score.terms = {0, 0.1, 1, 0.1, 0, 0};
+  EXPECT_FALSE(has(grip.text(), "in the glass")) << "a depth is no reason by itself";
   grip.report.answer.result.phalanx_depth = 0.04e-3;
   grip.report.answer.result.palm_depth = 0.01e-3;
-  EXPECT_TRUE(has(grip.text(), " and the hand does not reach into the glass;"));
+  EXPECT_TRUE(has(grip.text(), "because the hand does not reach into the glass;"));
 }
 
 TEST(ReportVerdict, NamesTheStrengthOfTheHand) {
@@ -173,22 +176,61 @@ TEST(ReportVerdict, NamesTheGripper) {
                   "gripper gives 8 N (margin 0.80)."));
 }
 
-TEST(ReportVerdict, ItsReasonsAreTheTermsThatAddMost) {
+TEST(ReportVerdict, AloneItsReasonIsTheTermThatAddsMost) {
   JudgedGrip grip;
   const auto reasons = [&grip](const ScoreTerms& terms) {
     grip.report.answer.score.terms = terms;
-    const std::string text = grip.text();
+    const std::string text = grip.text({{1, grip.report}});
+    EXPECT_EQ(text, grip.text());
     return text.substr(0, text.find(';'));
   };
   // weights 0.3, 0.1, 0.2, 0.1, 0.15, 0.15
-  EXPECT_EQ(reasons({0, 1, 0, 0.9, 0, 0}),
-            "This grip is good because 12 of 24 points of the hand touch the vessel and the hand is "
-            "near the middle of its range (closure 0.45)");
-  EXPECT_EQ(reasons({0, 0, 0, 0, 0.5, 0.6}),
-            "This grip is good because the hardest state takes 25\u00a0% of the hand's strength and "
-            "the gripper renders at most 4.0 N of its 8 N");
+  EXPECT_EQ(reasons({0, 1, 0, 0.9, 0, 0}), "This grip is good because 12 of 24 points of the hand touch the vessel");
+  EXPECT_EQ(reasons({0, 0, 0, 1, 0.5, 0.6}), "This grip is good because the hand is near the middle of its range (closure 0.45)");
+  EXPECT_EQ(reasons({0, 0, 0, 0, 0.5, 0.6}), "This grip is good because the hardest state takes 25\u00a0% of the hand's strength");
   EXPECT_EQ(reasons({0.1, 0, 0, 0, 0, 0}), "This grip is good because 4 of 5 fingers touch the vessel");
   EXPECT_EQ(reasons({0, 0, 0, 0, 0, 0}), "Nothing speaks for this grip");
+}
+
+// What all grips of a list share is one reason at most, and what a grip has more of than the median comes first.
+TEST(ReportVerdict, ItsReasonsTellItFromTheMedianOfItsList) {
+  JudgedGrip usual, other, grip;
+  grip.report.hold->worst = 0.2;
+  grip.report.answer.score.terms.hold = 0.9;
+  std::vector<RankedReport> list{{1, grip.report}, {2, usual.report}, {3, usual.report}, {4, other.report}};
+  const auto reasons = [](const std::string& text) { return text.substr(0, text.find(';')); };
+  EXPECT_EQ(
+      reasons(grip.text(list)),
+      "This grip is good because the hardest state takes 20\u00a0% of the hand's strength (median of the list: 25\u00a0%) and 4 "
+      "of 5 fingers touch the vessel");
+  EXPECT_EQ(reasons(usual.text(list)), "This grip is good because 4 of 5 fingers touch the vessel") << "it shares all";
+  grip.report.answer.result.closure = 0.5;
+  grip.report.answer.score.terms.posture = 1;
+  grip.report.answer.result.touch_mask = 0x1FFF;
+  grip.report.answer.score.terms.contacts = 0.9;
+  list[0].report = grip.report;
+  EXPECT_EQ(reasons(grip.text(list)),
+            "This grip is good because 13 of 24 points of the hand touch the vessel (median of the list: 12) and the hardest state "
+            "takes 20\u00a0% of the hand's strength (median of the list: 25\u00a0%)")
+      << "the two by which it exceeds the median most";
+  list[3].report.hold->worst = 0.15;
+  list[3].report.answer.score.terms.hold = 0.95;
+  EXPECT_FALSE(has(grip.text(list), "takes 20")) << "another takes less, and of the rest it has more than any other";
+  for (RankedReport& one : list) one.report.held_share = 0.5;
+  list[0].report.held_share = grip.report.held_share = 0.98;
+  EXPECT_TRUE(has(grip.text(list), "good because 98\u00a0% of its deviations hold (median of the list: 50\u00a0%) and 13 of 24"))
+      << grip.text(list);
+}
+
+// A grip that has less than the median of everything is not praised for a part of it, as long as there is anything else.
+TEST(ReportVerdict, WhatIsLessThanTheMedianIsTheLastReason) {
+  JudgedGrip usual, grip;
+  grip.report.answer.result.used_mask = 0b111;
+  grip.report.answer.score.terms.fingers = 0.6;
+  const std::vector<RankedReport> list{{1, usual.report}, {2, usual.report}, {3, grip.report}};
+  EXPECT_FALSE(has(grip.text(list), "fingers touch")) << grip.text(list);
+  grip.report.answer.score.terms = {0.6, 0, 0, 0, 0, 0};
+  EXPECT_TRUE(has(grip.text(list), "good because 3 of 5 fingers touch the vessel;")) << grip.text(list);
 }
 
 // A grip is not praised for what it would fail by.
@@ -196,10 +238,10 @@ TEST(ReportVerdict, ItsReasonIsNotItsLimit) {
   JudgedGrip grip;
   grip.report.answer.score.terms = {0.1, 0, 0, 0, 1, 1};
   grip.report.hold->worst = 0.9;
-  EXPECT_TRUE(has(grip.text(), "good because the gripper renders at most 4.0 N of its 8 N and 4 of 5 fingers"));
+  EXPECT_TRUE(has(grip.text(), "good because the gripper renders at most 4.0\u00a0N of its 8\u00a0N;"));
   grip.report.hold->worst = 0.25;
   grip.report.answer.states[0].state.normal_force = 7;
-  EXPECT_TRUE(has(grip.text(), "good because the hardest state takes 25\u00a0% of the hand's strength and 4 of 5 fingers"));
+  EXPECT_TRUE(has(grip.text(), "good because the hardest state takes 25\u00a0% of the hand's strength;"));
 }
 
 TEST(WriteMargins, HasARowForEachGripAndADashForWhatItDoesNotHave) {

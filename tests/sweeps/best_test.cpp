@@ -141,7 +141,7 @@ TEST(Best, TableShowsTheAxesThatVaryInColumns) {
   grip.safe_tilt = std::nan("");
   BestGrip next = grip;
   next.rank = 2;
-  const auto rows = lines(best_table(scene, plan, {grip, next, next}, 2));
+  const auto rows = lines(best_table(scene, plan, {grip, next, next}, {2, true}));
   ASSERT_EQ(rows.size(), 3u);
   for (const char* title : {"score", "height mm", "obliquity deg", "roll deg", "peak N", "safe deg"}) {
     EXPECT_NE(rows[0].find(title), std::string::npos) << title;
@@ -152,14 +152,50 @@ TEST(Best, TableShowsTheAxesThatVaryInColumns) {
   EXPECT_LE(rows[0].size(), 132u);
   EXPECT_EQ(rows[0].find("refined"), std::string::npos);
   next.safe_tilt = radians(22.5);
-  EXPECT_NE(best_table(scene, plan, {next}, 1).find(" 22.5\n"), std::string::npos) << "as the scene has it";
+  EXPECT_NE(best_table(scene, plan, {next}, {1, true}).find(" 22.5\n"), std::string::npos) << "as the scene has it";
   next.is_safe_to_end = true;
-  EXPECT_NE(best_table(scene, plan, {next}, 1).find(" 22.5+"), std::string::npos) << "more was not asked";
+  EXPECT_NE(best_table(scene, plan, {next}, {1, true}).find(" 22.5+"), std::string::npos) << "more was not asked";
   next.refined_score = 0.8764;
-  const auto refined = lines(best_table(scene, plan, {grip, next}, 2));
+  const auto refined = lines(best_table(scene, plan, {grip, next}, {2, true}));
   EXPECT_LT(refined[0].find("score"), refined[0].find("refined"));
   EXPECT_EQ(refined[1].find("0.876"), std::string::npos) << "not every grip need be refined";
   EXPECT_NE(refined[2].find("0.876"), std::string::npos);
+}
+
+// Whatever the scene asks for, a line fits a terminal, and shows the axes and what the list is ranked by.
+TEST(Best, NarrowTableHasTenColumnsAtMost) {
+  Scene scene = fake_scene();
+  scene.robust.emplace();
+  BestGrip grip;
+  grip.robust = {0.5, 0.25, 0.75};
+  const auto head = [&](RankBy by, std::size_t rows = 1) {
+    const auto table = lines(best_table(scene, Plan(scene, false), {grip, grip, grip}, {rows, false, by}));
+    EXPECT_EQ(table.size(), 1 + std::min<std::size_t>(rows, 3));
+    for (const std::string& line : table) EXPECT_LT(line.size(), 100u) << line;
+    EXPECT_EQ(table[1].size(), table[0].size());
+    return table[0];
+  };
+  const auto expect_titles = [](const std::string& titles, const std::vector<std::string>& there,
+                                const std::vector<std::string>& absent) {
+    for (const std::string& title : there) EXPECT_NE(titles.find("  " + title), std::string::npos) << title << ": " << titles;
+    for (const std::string& title : absent) EXPECT_EQ(titles.find("  " + title), std::string::npos) << title << ": " << titles;
+  };
+  scene.grips.offset.values = {0};
+  expect_titles(head(RankBy::robust), {"rank", "robust", "holds %", "height mm", "obliquity deg", "roll deg", "hold N"},
+                {"score", "effort", "peak N", "points", "azimuth", "offset"});
+  EXPECT_NE(best_table(scene, Plan(scene, false), {grip}, {1, false, RankBy::robust}).find("0.250       75"), std::string::npos);
+  scene.strength.emplace();
+  expect_titles(head(RankBy::score), {"score", "fingers", "gap mm", "effort", "safe deg"},
+                {"robust", "holds %", "hold N", "margin"});
+  expect_titles(head(RankBy::robust), {"robust", "holds %", "fingers", "gap mm", "effort", "safe deg"}, {"score", "margin"});
+  expect_titles(head(RankBy::push), {"score", "effort", "push N"}, {"robust"});
+  scene.grips.offset.values = {0, 1e-3};
+  expect_titles(head(RankBy::robust), {"offset mm", "holds %", "fingers", "effort", "safe deg"}, {"gap mm"});
+  scene.grips.sampling = Sampling::sobol;
+  scene.grips.count = 64;
+  scene.grips.hand_scale = {{0.9, 1.1}, true};
+  for (const RankBy by : {RankBy::score, RankBy::robust, RankBy::worst_effort, RankBy::push})
+    expect_titles(head(by, 5), {"height mm", "obliquity deg", "roll deg", "offset mm", "hand scale"}, {"gap mm"});
 }
 
 TEST(Best, SceneWithoutTiltsHasNoForces) {
@@ -169,10 +205,10 @@ TEST(Best, SceneWithoutTiltsHasNoForces) {
   FakeBackend backend(scene, make_field_set(best_fields(scene), scene), Precision::full, 8);
   const BestGrip best = evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front();
   EXPECT_TRUE(std::isnan(best.peak_force));
-  EXPECT_EQ(best_table(scene, plan, {best}, 1).find("peak N"), std::string::npos);
+  EXPECT_EQ(best_table(scene, plan, {best}, {1}).find("peak N"), std::string::npos);
   const std::string row = lines(best_csv(scene, plan, {{best}}, {"a.nc", "s"}))[1];
   EXPECT_TRUE(row.ends_with(best.antipodal ? ",,,,,1,,,,,,,,,,,,,,1,a.nc,s" : ",,,,,0,,,,,,,,,,,,,,1,a.nc,s")) << row;
-  EXPECT_NE(best_table(scene, plan, {best}, 1).find("antipodal"), std::string::npos) << "nothing else says that it would slip";
+  EXPECT_NE(best_table(scene, plan, {best}, {1}).find("antipodal"), std::string::npos) << "nothing else says that it would slip";
 }
 
 }  // namespace

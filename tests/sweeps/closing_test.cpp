@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "tests/support/fake_backend.h"
 
 namespace wholehand {
@@ -31,6 +34,48 @@ TEST(Closing, VesselsSayWhatTheyHoldAndWeigh) {
   facts[0].empty_mass = 0.19;
   facts[1].empty_mass = 1.23456;
   EXPECT_EQ(vessel_lines(scene, facts), "first vessel: holds 447 mL, 0.190 kg empty\nsecond: holds nothing, 1.23 kg empty\n");
+}
+
+TEST(Closing, VerdictSaysWhetherTheFirstGripHoldsAndHowSurely) {
+  Scene scene = fake_scene();
+  BestGrip grip;
+  grip.score = 0.8126;
+  EXPECT_EQ(verdict_text(scene, {grip}), "whether it holds is not judged without [strength]; grip 1 scores 0.813");
+  EXPECT_EQ(verdict_text(scene, {}), "no grip is feasible and plausible");
+  scene.strength.emplace();
+  EXPECT_EQ(verdict_text(scene, {}), "no grip is feasible and plausible and holds");
+  grip.efforts.worst = 0.25;
+  const std::string holds = "grip 1 holds with 25 % of the hand's strength (margin 4.00)";
+  EXPECT_EQ(verdict_text(scene, {grip}), holds + "; not judged off its place");
+  scene.robust.emplace();
+  EXPECT_EQ(verdict_text(scene, {grip}), holds) << "nobody asked for its deviations";
+  grip.robust.share = 0.999;
+  EXPECT_EQ(verdict_text(scene, {grip, BestGrip()}), holds + " and in 99 % of its deviations") << "not all of them";
+  grip.robust.share = 0.625;
+  EXPECT_EQ(verdict_text(scene, {grip}), holds + ", but in only 62 % of its deviations");
+  grip.efforts.worst = 1.6;
+  EXPECT_EQ(verdict_text(scene, {grip}), "no grip holds; grip 1 takes 160 % of the hand's strength (margin 0.62)");
+  grip.efforts.worst = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(verdict_text(scene, {grip}), "no grip holds; no force of the hand holds it in grip 1");
+  scene.tilts.clear();
+  EXPECT_EQ(verdict_text(scene, {grip}), "whether it holds is not judged without [tilts]; grip 1 scores 0.813");
+}
+
+TEST(Closing, AListShowsItsFirstGripsAndHowManyMoreThereAre) {
+  const Scene scene = fake_scene();
+  const Plan plan(scene, false);
+  std::vector<BestGrip> best(8);
+  const auto count_lines = [&](std::size_t rows, const std::string& file) {
+    const std::string text = list_lines(scene, plan, 0, best, file, {rows});
+    EXPECT_EQ(text.find("  .. ") != std::string::npos, rows < 8) << text;
+    const std::string more = file.empty() ? " more; -o FILE writes all of them\n" : " more in a.csv\n";
+    EXPECT_EQ(text.find(more) != std::string::npos, rows < 8) << text;
+    return std::count(text.begin(), text.end(), '\n') - (rows < 8 ? 2 : 1);
+  };
+  const std::ptrdiff_t edge = count_lines(8, "") - 8;  // whether a line names an edge
+  EXPECT_EQ(count_lines(5, "a.csv"), 5 + edge);
+  EXPECT_EQ(count_lines(1, ""), 1 + edge);
+  EXPECT_EQ(count_lines(50, ""), 8 + edge) << "no more than there are";
 }
 
 TEST(Closing, TimesAddUp) {

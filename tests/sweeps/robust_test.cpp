@@ -277,6 +277,10 @@ TEST(Robust, ScoresAreThoseOfEveryDeviationByItself) {
         EXPECT_NEAR(lists[v][rank].robust.low, expected.low, 2e-4);
         EXPECT_EQ(lists[v][rank].robust.mean, alone[v][rank].robust.mean) << "whatever the threads";
         EXPECT_EQ(lists[v][rank].robust.low, alone[v][rank].robust.low);
+        GripReport report = make_grip_report(scene, v, lists[v][rank].grip, scene_axes(scene, v),
+                                             core_grip_methods(scene, make_core_evaluator(scene), "core"));
+        add_held_share(report, scene, v);
+        EXPECT_EQ(report.held_share.value(), lists[v][rank].robust.share) << "a grip alone has what it has in its list";
         is_between = is_between || (expected.low > 0 && expected.low < expected.mean);
       }
     EXPECT_TRUE(is_between) << "no deviation matters";
@@ -525,7 +529,7 @@ TEST_F(RobustRun, TheFileTheListAndRankTellTheSame) {
       ++told;
     }
   EXPECT_GT(told, 0);
-  EXPECT_NE(best_table(scene, plan, ranking.lists[0], 3).find("robust low"), std::string::npos);
+  EXPECT_NE(best_table(scene, plan, ranking.lists[0], {3, true}).find("  robust  mean  holds %"), std::string::npos);
 }
 
 TEST_F(RobustRun, AResumedSweepTellsTheSame) {

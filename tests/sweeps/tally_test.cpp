@@ -30,6 +30,9 @@ TEST(Tally, CountsByReasonAndAmongTheFeasible) {
             "blocked finger");
   EXPECT_EQ(counts_line(counts, true, 12).substr(0, 38), "3 of 6 grips (each at 12 azimuths) fea");
   EXPECT_EQ(counts_line(counts, false, 1), "6 grips");
+  EXPECT_EQ(short_counts_line(counts, true, 1, false), "2 of 6 grips are plausible; 1 too deep, 2 misses, 1 too wide");
+  EXPECT_EQ(short_counts_line(counts, true, 12, true), "2 of 6 grips (each at 12 azimuths) hold; 1 too deep, 2 misses, 1 too wide");
+  EXPECT_EQ(short_counts_line(counts, false, 1, true), "6 grips");
 }
 
 // Depth is counted where none of the three others makes a grip implausible; a grip of several counts for each.
@@ -49,6 +52,9 @@ TEST(Tally, TellsWhyGripsAreImplausible) {
       counts_line(counts, true, 1),
       "10 of 11 grips feasible (1 misses); of these 9 implausible (3 through the table, 2 with fingers in each other, 2 beyond "
       "the wrist, 4 only too deep), 0 antipodal");
+  EXPECT_EQ(
+      short_counts_line(counts, true, 1, false),
+      "1 of 11 grips are plausible; 3 through the table, 2 with fingers in each other, 2 beyond the wrist, 4 too deep, 1 misses");
   counts.through_table = counts.self_overlap = counts.beyond_wrist = counts.only_deep = 0;
   EXPECT_EQ(counts_line(counts, true, 1), "10 of 11 grips feasible (1 misses); of these 9 implausible, 0 antipodal");
 }
@@ -70,6 +76,7 @@ TEST(Tally, CountsGripsThatDoNotHoldAndKeepsTheNearestToIt) {
     EXPECT_EQ(counts.not_held, 4u);
     EXPECT_TRUE(counts.none_holds());
     EXPECT_NE(counts_line(counts, true, 1).find("1 implausible (1 only too deep), 4 not held, 0 antipodal"), std::string::npos);
+    EXPECT_EQ(short_counts_line(counts, true, 1, true), "0 of 5 grips hold; 4 not held, 1 too deep");
     counts += before;
     return counts.least_bad.grip;
   };
