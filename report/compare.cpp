@@ -16,9 +16,9 @@
 #include "core/text.h"
 #include "report/html.h"
 #include "report/page.h"
-#include "report/scene.h"
 #include "report/source.h"
 #include "sweeps/grip_lists.h"
+#include "sweeps/rules.h"
 #include "system/readable.h"
 #include "system/version.h"
 
@@ -207,20 +207,6 @@ std::vector<std::string> changed_lines(const std::string& a, const std::string& 
   return changes;
 }
 
-std::string strength_text(const std::optional<StrengthData>& strength) {
-  if (!strength) return "none";
-  std::vector<std::string> digits;
-  for (const double digit : strength->digits) digits.push_back(plain_text(digit));
-  return joined(digits, ", ") + (strength->by_opening ? " N at the best opening" : " N");
-}
-
-std::string arm_text(const std::optional<ArmData>& arm) {
-  if (!arm) return "none";
-  std::vector<std::string> place;
-  for (const double coordinate : arm->shoulder) place.push_back(plain_text(coordinate * 1e3));
-  return "shoulder at " + joined(place, ", ") + " mm";
-}
-
 // How both judge: what differs, and first of all whether scores follow one rule. Whether anything differs.
 bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   const SweepOrigin &from_a = a.result.origin(), &from_b = b.result.origin();
@@ -233,23 +219,11 @@ bool add_judging(const Side& a, const Side& b, ComparePart& part) {
     table.rows.push_back({name, std::move(text_a), std::move(text_b)});
     if (is_rule) rules.emplace_back(name);
   };
-  HandData hand_a = a.scene.hand, hand_b = b.scene.hand;
-  hand_a.place = hand_b.place = "";
-  const auto hand = [](const HandData& data) {
-    return fmt::format("{}, scale {}", data.handedness == Handedness::right ? "right" : "left", plain_text(data.scale));
-  };
-  const auto gate = [](const Side& side) { return has_effort(side.scene) ? "with efforts" : "without efforts"; };
-  const auto robust = [](const Scene& scene) {
-    return scene.robust ? fmt::format("{} deviations, seed {}", scene.robust->count, scene.robust->seed) : "none";
-  };
   const auto meshes = [](const SweepOrigin& from) { return from.mesh_keys.empty() ? "none" : "files"; };
   const auto precision = [](const SweepOrigin& from) { return from.precision == Precision::single ? "float" : "double"; };
-  add("hand", hand_a == hand_b, hand(hand_a), hand(hand_b), true);
-  add("strength", a.scene.strength == b.scene.strength, strength_text(a.scene.strength), strength_text(b.scene.strength), true);
-  add("arm", a.scene.arm == b.scene.arm, arm_text(a.scene.arm), arm_text(b.scene.arm), true);
-  add("weights", effective_weights(a.scene) == effective_weights(b.scene), weights_text(a.scene), weights_text(b.scene), true);
-  add("gate", has_effort(a.scene) == has_effort(b.scene), gate(a), gate(b), true);
-  add("robust settings", a.scene.robust == b.scene.robust, robust(a.scene), robust(b.scene), true);
+  const auto rules_a = rules_of(a.scene), rules_b = rules_of(b.scene);
+  const auto is_shared = shared_rules(a.scene, b.scene);
+  for (std::size_t k = 0; k < RULE_COUNT; ++k) add(rules_a[k].name, is_shared[k], rules_a[k].text, rules_b[k].text, true);
   add("meshes", from_a.mesh_keys == from_b.mesh_keys, meshes(from_a), meshes(from_b), false);
   add("device", from_a.device == from_b.device, from_a.device, from_b.device, false);
   add("driver", from_a.driver == from_b.driver, from_a.driver, from_b.driver, false);

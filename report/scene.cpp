@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "grips/methods.h"
 #include "sweeps/result_contents.h"
+#include "sweeps/rules.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -157,15 +158,6 @@ void write_vessels(MarkupWriter& html, const ReportSource& source) {
 }
 
 }  // namespace
-
-std::string weights_text(const Scene& scene) {
-  const auto weights = effective_weights(scene);
-  const std::array<const char*, 6> names{"fingers", "contacts", "depth", "posture", "force", "hold"};
-  std::vector<std::string> parts;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (weights[k] > 0) parts.push_back(fmt::format("{} {}", names[k], plain_number(weights[k])));
-  return joined(parts, ", ");
-}
 
 void write_scene(MarkupWriter& html, const ReportSource& source) {
   const Scene& scene = source.scene;

@@ -12,9 +12,6 @@ namespace wholehand {
 // The scene in words and as it was written.
 void write_scene(MarkupWriter& html, const ReportSource& source);
 
-// Weights of the score's terms, without those of weight 0: "depth 0.69, force 0.13".
-std::string weights_text(const Scene& scene);
-
 // Device, times and size; the sentences of `left_out`.
 void write_origin(MarkupWriter& html, const ReportSource& source);
 

@@ -54,15 +54,14 @@ struct Column {
 };
 
 constexpr std::size_t MOST_COLUMNS = 10, MOST_LETTERS = 99;  // of a table that is not wide
-constexpr const char* RANK_TITLE = "  rank";
 
-// Leaves those for which there is room beside the rank.
-void narrow(std::vector<Column>& columns) {
+// Leaves those for which there is room beside `head`, which has some columns itself.
+void narrow(std::vector<Column>& columns, const std::string& head, std::size_t in_head) {
   std::erase_if(columns, [](const Column& column) { return column.place == Column::wide_only; });
   const auto is_too_wide = [&] {
-    std::size_t letters = std::string_view(RANK_TITLE).size();
+    std::size_t letters = head.size();
     for (const Column& column : columns) letters += 2 + column.title.size();
-    return columns.size() + 1 > MOST_COLUMNS || letters > MOST_LETTERS;
+    return columns.size() + in_head > MOST_COLUMNS || letters > MOST_LETTERS;
   };
   while (is_too_wide()) {
     const auto last =
@@ -150,8 +149,7 @@ BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candid
   return grip;
 }
 
-std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
-                     const ListOrigin& origin) {
+std::string best_csv_head(const Scene& scene) {
   std::string csv(BEST_CSV_START);
   csv +=
       "azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,score_contacts,score_"
@@ -161,36 +159,42 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,"
       "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,";
   if (scene.robust) csv += "robust_mean,robust_low,robust_share,";
-  csv += "grip,result,sweep\n";
-  for (std::size_t list = 0; list < lists.size(); ++list) {
-    const std::string& vessel = scene.vessels[list / plan.hand_scales()].name;
-    for (const BestGrip& best : lists[list]) {
-      const GripInput& grip = best.grip;
-      std::vector<double> numbers{grip.height * 1e3,  degrees(grip.azimuth), degrees(grip.obliquity),
-                                  degrees(grip.roll), grip.offset * 1e3,     grip.hand_scale,
-                                  best.score};
-      for (std::size_t term = 0; term < best.terms.size(); ++term) {
-        const bool absent = term >= 4 && scene.tilts.empty();  // force and hold
-        numbers.push_back(absent ? std::nan("") : best.terms[term]);
-      }
-      numbers.insert(numbers.end(),
-                     {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used),
-                      static_cast<double>(best.points_touching), best.phalanx_depth * 1e3, best.palm_depth * 1e3, best.peak_force,
-                      degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
-      const GripEfforts& efforts = best.efforts;
-      numbers.insert(numbers.end(), {efforts.worst, efforts.fill, degrees(efforts.tilt), efforts.tips_worst, efforts.push,
-                                     efforts.friction_needed, held_margin(efforts.worst)});
-      const GripInput& refined = best.refined;
-      const bool is_refined = !std::isnan(best.refined_score);
-      for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),
-                                  degrees(refined.roll), refined.offset * 1e3})
-        numbers.push_back(is_refined ? number : NOT_A_NUMBER);
-      if (scene.robust) numbers.insert(numbers.end(), {best.robust.mean, best.robust.low, best.robust.share});
-      csv += fmt::format("{},{}", csv_text(vessel), best.rank);
-      for (const double number : numbers) csv += "," + csv_number(number);
-      csv += fmt::format(",{},{},{}\n", best.candidate.index, csv_text(origin.result), origin.sweep);
-    }
+  return csv + "grip,result,sweep\n";
+}
+
+std::string best_csv_row(const Scene& scene, const std::string& vessel, const BestGrip& best, const ListOrigin& origin) {
+  const GripInput& grip = best.grip;
+  std::vector<double> numbers{grip.height * 1e3,  degrees(grip.azimuth), degrees(grip.obliquity),
+                              degrees(grip.roll), grip.offset * 1e3,     grip.hand_scale,
+                              best.score};
+  for (std::size_t term = 0; term < best.terms.size(); ++term) {
+    const bool absent = term >= 4 && scene.tilts.empty();  // force and hold
+    numbers.push_back(absent ? std::nan("") : best.terms[term]);
   }
+  numbers.insert(numbers.end(),
+                 {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used), static_cast<double>(best.points_touching),
+                  best.phalanx_depth * 1e3, best.palm_depth * 1e3, best.peak_force, degrees(best.peak_tilt), best.largest_hold,
+                  degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
+  const GripEfforts& efforts = best.efforts;
+  numbers.insert(numbers.end(), {efforts.worst, efforts.fill, degrees(efforts.tilt), efforts.tips_worst, efforts.push,
+                                 efforts.friction_needed, held_margin(efforts.worst)});
+  const GripInput& refined = best.refined;
+  const bool is_refined = !std::isnan(best.refined_score);
+  for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),
+                              degrees(refined.roll), refined.offset * 1e3})
+    numbers.push_back(is_refined ? number : NOT_A_NUMBER);
+  if (scene.robust) numbers.insert(numbers.end(), {best.robust.mean, best.robust.low, best.robust.share});
+  std::string row = fmt::format("{},{}", csv_text(vessel), best.rank);
+  for (const double number : numbers) row += "," + csv_number(number);
+  return row + fmt::format(",{},{},{}\n", best.candidate.index, csv_text(origin.result), origin.sweep);
+}
+
+std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
+                     const ListOrigin& origin) {
+  std::string csv = best_csv_head(scene);
+  for (std::size_t list = 0; list < lists.size(); ++list)
+    for (const BestGrip& best : lists[list])
+      csv += best_csv_row(scene, scene.vessels[list / plan.hand_scales()].name, best, origin);
   return csv;
 }
 
@@ -209,7 +213,8 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
         {"holds %", [](const BestGrip& b) { return fixed_text(100 * b.robust.share, 0); }, if_so(is_robust, Column::held_share)});
   }
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
-    if (plan.varies(place)) columns.push_back({title, cell, Column::always});
+    const auto differs = [&](const BestGrip& b) { return cell(b) != cell(best.front()); };  // between several results
+    if (plan.varies(place) || std::any_of(best.begin(), best.end(), differs)) columns.push_back({title, cell, Column::always});
   };
   axis(PLACE_HEIGHT, "height mm", [](const BestGrip& b) { return fixed_text(b.grip.height * 1e3, 1); });
   axis(PLACE_AZIMUTH, "azimuth deg", [](const BestGrip& b) { return fixed_text(degrees(b.grip.azimuth), 1); });
@@ -240,12 +245,15 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
     columns.push_back({"margin", [](const BestGrip& b) { return fixed_text(held_margin(b.efforts.worst), 2); }});
     columns.push_back({"push N", [](const BestGrip& b) { return fixed_text(b.efforts.push, 1); }, if_so(view.by == RankBy::push)});
   }
-  if (!view.is_wide) narrow(columns);
-  std::string table = RANK_TITLE;
+  std::size_t longest = std::string_view("result").size();
+  for (const std::string& result : view.results) longest = std::max(longest, result.size());
+  std::string table = view.results.empty() ? "  rank" : fmt::format("  rank  {:<{}}", "result", longest);
+  if (!view.is_wide) narrow(columns, table, view.results.empty() ? 1 : 2);
   for (const Column& column : columns) table += "  " + column.title;
   table += '\n';
   for (std::size_t rank = 0; rank < std::min(view.rows, best.size()); ++rank) {
     table += fmt::format("  {:>4}", best[rank].rank);
+    if (!view.results.empty()) table += fmt::format("  {:<{}}", view.results[rank], longest);
     for (const Column& column : columns) table += fmt::format("  {:>{}}", column.cell(best[rank]), column.title.size());
     table += '\n';
   }

@@ -81,6 +81,9 @@ struct ListOrigin {
 // sweep, the result and the sweep, by which the grips are found again. The lists are those of each vessel and hand scale (GripLists).
 std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
                      const ListOrigin& origin);
+// Its first line, and the line of a grip of a vessel.
+std::string best_csv_head(const Scene& scene);
+std::string best_csv_row(const Scene& scene, const std::string& vessel, const BestGrip& best, const ListOrigin& origin);
 
 // By what a list is ranked: the largest score, the largest robust scores (sweeps/robust.h), the least worst_effort, or the largest push.
 enum class RankBy { score, robust, worst_effort, push };
@@ -92,6 +95,7 @@ struct ListView {
   std::size_t rows = 5;  // at most
   bool is_wide = false;  // all columns, however wide the lines get
   RankBy by = RankBy::score;
+  std::vector<std::string> results = {};  // of a list of several results, whose each grip is; else empty
 };
 
 // The table of one list for a terminal, with only the axes that vary. Unless it is wide, it has ten columns at most, in less than 100 letters: what

@@ -77,6 +77,7 @@ std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
   if (best.size() > view.rows)
     text += fmt::format("  .. {} more{}\n", readable_number(best.size() - view.rows),
                         file.empty() ? "; -o FILE writes all of them" : " in " + one_line(file));
+  if (!view.results.empty()) return text;  // whose ends differ
   std::vector<Candidate> candidates;
   for (const BestGrip& grip : best) candidates.push_back(grip.candidate);
   const std::string edge = edge_line(edge_axes(scene, plan, vessel, candidates));

@@ -32,7 +32,7 @@ std::string vessel_lines(const Scene& scene, const std::vector<VesselFacts>& fac
 std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best);
 
 // What is printed of a list of a vessel's best grips: the table of the first, how many more are in `file` ("" where there is none), and whether the best
-// lies at an end of an axis. Empty for an empty list.
+// lies at an end of an axis, which a list of several results does not say. Empty for an empty list.
 std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<BestGrip>& best,
                        const std::string& file, const ListView& view);
 

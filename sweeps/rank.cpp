@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -523,6 +524,24 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
     ranking.lists.push_back(std::move(grips));
   }
   return ranking;
+}
+
+std::vector<MergedGrip> merged(std::vector<MergedGrip> grips, RankBy by, std::size_t best) {
+  // the larger ranks first; what is not known is less than all
+  const auto keys = [by](const BestGrip& grip) {
+    std::array<double, 4> found{grip.score, -grip.efforts.worst};
+    if (by == RankBy::robust) found = {grip.robust.low, grip.robust.mean, grip.score, -grip.efforts.worst};
+    if (by == RankBy::worst_effort) found = {-grip.efforts.worst};
+    if (by == RankBy::push) found = {grip.efforts.push};
+    for (double& key : found)
+      if (std::isnan(key)) key = -std::numeric_limits<double>::infinity();
+    return found;
+  };
+  std::stable_sort(grips.begin(), grips.end(),
+                   [&](const MergedGrip& a, const MergedGrip& b) { return keys(a.grip) > keys(b.grip); });
+  grips.resize(std::min(grips.size(), best));
+  for (std::size_t i = 0; i < grips.size(); ++i) grips[i].grip.rank = i + 1;
+  return grips;
 }
 
 }  // namespace wholehand

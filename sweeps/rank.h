@@ -56,4 +56,13 @@ struct Ranking {
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core);
 
+// A grip of one of several rankings, and of which list there.
+struct MergedGrip {
+  std::size_t ranking = 0, list = 0;
+  BestGrip grip;
+};
+
+// Ranks grips of several rankings `by` anew, at most `best` of them; of equal ones the first stay first.
+std::vector<MergedGrip> merged(std::vector<MergedGrip> grips, RankBy by, std::size_t best);
+
 }  // namespace wholehand

@@ -7,12 +7,15 @@
 #include <filesystem>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "objects/vessel.h"
 #include "shaders/layout.h"
 #include "sweeps/result_definition.h"
+#include "sweeps/rules.h"
 
 namespace wholehand {
 namespace {
@@ -89,6 +92,9 @@ class SweepDefinition : ResultDefinition {
     text(NC_GLOBAL, "program", "wholehand");
     text(NC_GLOBAL, "version", contents_.version);
     text(NC_GLOBAL, "scene", scene.text);
+    std::vector<std::string> rules;
+    for (const Rule& rule : rules_of(scene)) rules.push_back(fmt::format("{}: {}", rule.name, rule.text));
+    text(NC_GLOBAL, "rules", joined(rules, "\n"));
     text(NC_GLOBAL, "backend", info.backend);
     text(NC_GLOBAL, "device", info.device);
     text(NC_GLOBAL, "driver", info.driver);

@@ -3,11 +3,15 @@
 // sanitizers: address
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "scene/shipped.h"
@@ -15,6 +19,7 @@
 #include "tests/support/files.h"
 #include "tests/support/program.h"
 #include "tests/support/result_reader.h"
+#include "tests/support/sweep_results.h"
 
 namespace wholehand {
 namespace {
@@ -126,6 +131,77 @@ TEST_F(CommandRank, RowsAndColumnsAreShownOnRequest) {
     for (const char* bad : {"0", "-1", "2.5", "five", "1000000"})
       expect_error(command + " --list=" + bad, 2, std::string("--list '") + bad + "'; allowed: a whole number, 1 to 100000");
   }
+}
+
+// Rows of a list, each with its cells.
+std::vector<std::vector<std::string>> list_rows(const std::string& path) {
+  std::istringstream file(file_text(path));
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream cells(line);
+    for (rows.emplace_back(); std::getline(cells, line, ',');) rows.back().push_back(line);
+  }
+  return rows;
+}
+
+// The grips of two sweeps compete for the places of one list.
+TEST(RankSeveral, GripsOfOneRuleShareAList) {
+  const SweptScene low(edited(RESULT_SCENE, "\"flask\"", "\"bottle\"")),
+      high(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills = [0, 0.9]"));
+  const std::string list = low.folder / "list.csv";
+  const Outcome outcome = run("PROGRAM rank " + low.path + " " + high.path + " --best 8 -o " + list + " 2>&1");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  const auto rows = list_rows(list);
+  const auto column = [&](const std::string& name) { return std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin(); };
+  const auto vessel = column("vessel"), rank = column("rank"), score = column("score"), grip = column("grip"),
+             sweep = column("sweep");
+  // by hand: the lists of both, sorted
+  std::vector<std::tuple<double, std::string, std::string>> expected;
+  for (const SweptScene* swept : {&low, &high}) {
+    const std::string own = swept->folder / "own.csv";
+    ASSERT_EQ(run("PROGRAM rank " + swept->path + " --best 8 -o " + own + " >/dev/null").code, 0);
+    for (const auto& row : list_rows(own))
+      if (row[vessel] == "cup") expected.emplace_back(std::stod(row[score]), row[grip], row[sweep]);
+  }
+  std::stable_sort(expected.begin(), expected.end(), [](const auto& a, const auto& b) { return std::get<0>(a) > std::get<0>(b); });
+  expected.resize(8);
+  std::map<std::string, std::vector<std::tuple<double, std::string, std::string>>> found;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    auto& own = found[rows[i][vessel]];
+    own.emplace_back(std::stod(rows[i][score]), rows[i][grip], rows[i][sweep]);
+    EXPECT_EQ(rows[i][rank], std::to_string(own.size()));
+  }
+  EXPECT_EQ(found["cup"], expected);
+  std::set<std::string> sweeps;
+  for (const auto& one : found["cup"]) sweeps.insert(std::get<2>(one));
+  EXPECT_EQ(sweeps.size(), 2u) << "grips of both are among the best";
+  EXPECT_EQ(found.size(), 3u) << "a cup of both, and a bottle and a flask of one each";
+  for (const SweptScene* swept : {&low, &high}) {
+    EXPECT_NE(outcome.output.find("\n  " + swept->path + ": "), std::string::npos) << "counts: " << outcome.output;
+    EXPECT_NE(outcome.output.find("  " + swept->path + "  "), std::string::npos) << "rows: " << outcome.output;
+  }
+  expect_error("grip " + low.path + " --vessel cup --rank 1 --list " + list, 2, "sweep");
+}
+
+TEST(RankSeveral, OtherRulesAreRefusedInALineThatNamesThem) {
+  const SweptScene usual(RESULT_SCENE);
+  const auto refused = [&](const std::string& text, const std::string& options, const std::string& message) {
+    const SweptScene other(text);
+    expect_error("rank " + usual.path + " " + other.path + options, 2, other.path + ": " + message);
+  };
+  const auto with = [](const std::string& table) { return edited(RESULT_SCENE, "[tilts]", table + "\n[tilts]"); };
+  refused(with("[hand]\nscale = 0.9"), "",
+          "hand 'right, scale 0.9', but 'right, scale 1' in " + usual.path + "; allowed: results of one hand");
+  refused(with("[robust]\nroll_deg = 5"), "", "robust settings '64 deviations, seed 1, roll 5 deg', but 'none' in ");
+  refused(with("[strength]\nthumb_N = 31"), "", "strength '31, ");
+  refused(with("[hand]\nbetween = 1"), "", "hand 'right, scale 1, other numbers than by default', but 'right, scale 1' in ");
+  refused(with("[score]\nhold = 0.5"), "", "weights '");
+  refused(with("[score]\nhold = 0.5"), " --weights depth=1", "weights '");
+  const SweptScene other(with("[score]\nhold = 0.5"));
+  EXPECT_EQ(run("PROGRAM rank " + usual.path + " " + other.path + " --weights hold=0.3 >/dev/null").code, 0) << "one rule for both";
+  expect_error("rank " + usual.path + " " + usual.path, 2, "are the same file; name each result once");
+  expect_error("rank " + usual.path + " " + other.path + " --weights hold=0.3 --glb 1 -o " + (usual.folder / "l.csv"), 2,
+               "--glb: draws grips of one result");
 }
 
 TEST_F(CommandRank, WhatIsWrongIsOneLineAndNothingIsWritten) {

@@ -406,5 +406,35 @@ TEST(Rank, WithTheSweepsDistanceItIsTheSweepsOwnList) {
   }
 }
 
+TEST(Rank, GripsOfSeveralRankingsAreMergedByWhatIsAskedFor) {
+  const double none = std::nan("");
+  std::vector<MergedGrip> grips(4);
+  const std::array<std::array<double, 4>, 4> numbers{
+      {{0.9, 0.3, 0.2, 7}, {0.8, 0.6, 0.1, 9}, {0.9, none, none, none}, {0, none, 1.5, 0}}};
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    grips[i].ranking = i;
+    grips[i].grip.score = numbers[i][0];
+    grips[i].grip.robust.low = grips[i].grip.robust.mean = numbers[i][1];
+    grips[i].grip.efforts.worst = numbers[i][2];
+    grips[i].grip.efforts.push = numbers[i][3];
+  }
+  const auto order = [&](RankBy by, std::size_t best) {
+    std::vector<std::size_t> places;
+    for (const MergedGrip& grip : merged(grips, by, best)) {
+      places.push_back(grip.ranking);
+      EXPECT_EQ(grip.grip.rank, places.size());
+    }
+    return places;
+  };
+  using Places = std::vector<std::size_t>;
+  EXPECT_EQ(order(RankBy::score, 9), (Places{0, 2, 1, 3})) << "what is not known is less than all";
+  EXPECT_EQ(order(RankBy::robust, 9), (Places{1, 0, 2, 3}));
+  EXPECT_EQ(order(RankBy::worst_effort, 3), (Places{1, 0, 3}));
+  EXPECT_EQ(order(RankBy::push, 2), (Places{1, 0}));
+  std::swap(grips[0], grips[1]);
+  for (MergedGrip& grip : grips) grip.grip = BestGrip();
+  EXPECT_EQ(order(RankBy::score, 9), (Places{1, 0, 2, 3})) << "equal ones stay in their order";
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -89,6 +89,10 @@ TEST_F(ResultContentsTest, AttributesSayWhereItCameFrom) {
   EXPECT_EQ(read_text(path, "", "Conventions"), "CF-1.8");
   EXPECT_EQ(read_text(path, "reason", "flag_meanings"), "none degenerate not_converged misses too_wide too_narrow on_mouth");
   EXPECT_NE(read_text(path, "score_depth", "comment").find("10 mm"), std::string::npos);
+  const std::string rules = "\n" + read_text(path, "", "rules") + "\n";
+  for (const char* rule : {"hand: right, scale 1", "strength: none", "gate: none", "robust settings: none",
+                           "weights: fingers 0.02, contacts 0.02, depth 0.69, posture 0.02, force 0.13, hold 0.12"})
+    EXPECT_NE(rules.find(std::string("\n") + rule + "\n"), std::string::npos) << rule << " is not in" << rules;
   const std::string text = dump(path);
   EXPECT_NE(text.find(":seed = 0ULL"), std::string::npos);
   EXPECT_NE(text.find(":wall_time_s = NaN"), std::string::npos);

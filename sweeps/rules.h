@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The rules by which a sweep scores grips and lists them: scores of two sweeps compare only where these are the same.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "core/scene.h"
+
+namespace wholehand {
+
+struct Rule {
+  const char* name;
+  std::string text;
+};
+
+enum RulePlace : std::size_t { RULE_HAND, RULE_STRENGTH, RULE_ARM, RULE_WEIGHTS, RULE_GATE, RULE_ROBUST, RULE_COUNT };
+
+// Those of a scene by RulePlace, in words: a result has them in its attribute `rules`.
+std::array<Rule, RULE_COUNT> rules_of(const Scene& scene);
+
+// Which of them two scenes share, whether the words tell or not.
+std::array<bool, RULE_COUNT> shared_rules(const Scene& a, const Scene& b);
+
+// Weights of the score's terms, without those of weight 0: "depth 0.69, force 0.13".
+std::string weights_text(const Scene& scene);
+
+}  // namespace wholehand
