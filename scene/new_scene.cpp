@@ -108,6 +108,7 @@ std::string new_scene(const NewScene& wanted) {
       wanted.name);
   text += vessel_table(wanted);
   text += "\n# ---- where it stands: no finger may be under its base ----\n\n[table]\n";
+  text += "\n# ---- whose hand it is: a person in front of it, whose wrist and forearm turn as far as people's do ----\n\n[arm]\n";
   if (wanted.mesh.empty()) text += liquid_table(wanted);
   text += "\n# ---- how it is held: every combination, taken between thumb and index finger ----\n\n[grips]\n";
   const bool is_round = wanted.mesh.empty();

@@ -92,6 +92,7 @@ TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
   Scene scene = three_beakers();
   scene.pose = Pose::rigged;
   scene.table.reset();
+  scene.arm.reset();
   scene.hand.between = 0;
   scene.liquid.reset();
   scene.tilts.clear();
