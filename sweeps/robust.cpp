@@ -16,6 +16,7 @@
 #include "core/normal.h"
 #include "core/planes.h"
 #include "core/sobol.h"
+#include "grips/report.h"
 #include "shaders/status.h"
 #include "statistics/interval.h"
 

@@ -11,11 +11,12 @@
 
 #include "core/backend.h"
 #include "core/scene.h"
-#include "grips/report.h"
 #include "sweeps/best.h"
 #include "sweeps/plan.h"
 
 namespace wholehand {
+
+struct GripReport;  // grips/report.h
 
 constexpr int FRICTION_LEVELS = 8;            // values that a friction with a deviation takes, all equally likely
 constexpr double LEAST_HAND_FACTOR = 0.1;     // of the hand's size, however large its deviation
