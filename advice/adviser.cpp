@@ -45,8 +45,9 @@ const RatedGrip* nearest_of_best(const std::vector<RatedGrip>& rated, const Grip
 
 Scene advice_scene(const Scene& scene) {
   if (!scene.strength) {
-    throw usage_error(
-        at_place(scene.file, "advice is about the effort of the hand, and [strength] says efforts = false; leave efforts out"));
+    throw usage_error(at_place(
+        scene.file,
+        "advice is about the effort of the hand, and the scene has no strengths; leave efforts = false out of [strength]"));
   }
   Scene own = scene;
   if (own.tilts.empty())

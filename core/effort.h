@@ -42,7 +42,7 @@ struct HandStrength {
   Real torsion = 0;                   // gamma, m
   std::array<Real, DIGITS> digits{};  // N; 0: this digit does not press
 
-  // Of the weaker one of thumb and index finger, N: the hold force is the effort times this.
+  // The weaker one of thumb and index finger has it, N: the hold force is the effort times this.
   Real weaker_tip() const { return digits[0] < digits[1] ? digits[0] : digits[1]; }
 };
 

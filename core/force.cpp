@@ -47,10 +47,6 @@ Real feedback_force(Real normal, Real opening, Real max) { return std::clamp(nor
 // A share of the grip's own length and no absolute one: far above what rounding makes of a lever, in either precision.
 Real longest_bare_lever(Real pivot_length) { return Real(BARE_LEVER) * std::max(pivot_length, Real(SMALLEST_PIVOT)); }
 
-// Limit surface of each of two contacts: (f_t / (mu N))^2 + (tau_n / (mu gamma N))^2 <= 1, with the load across d and the moment
-// about d shared; the load along d adds half of itself to one side. With w = d . u, r = CoM - M and tau_d = m g |d . (r x u)|:
-//   N = sqrt((m g)^2 (1 - w^2) / 4 + (tau_d / (2 gamma))^2) / mu + m g |w| / 2
-// Degenerate: without torsion a lever that counts, and without friction whatever lies across d, needs an infinite force.
 Real strength_at(Real opening) {
   constexpr Real FROM = Real(OPENING_FROM), STEP = Real(OPENING_STEP), GAIN = Real(OPENING_GAIN), LOSS_1 = Real(OPENING_LOSS_1),
                  LOSS_2 = Real(OPENING_LOSS_2);
@@ -59,6 +55,10 @@ Real strength_at(Real opening) {
          LOSS_2 * std::clamp(step - Real(2), Real(0), Real(1));
 }
 
+// Limit surface of each of two contacts: (f_t / (mu N))^2 + (tau_n / (mu gamma N))^2 <= 1, with the load across d and the moment
+// about d shared; the load along d adds half of itself to one side. With w = d . u, r = CoM - M and tau_d = m g |d . (r x u)|:
+//   N = sqrt((m g)^2 (1 - w^2) / 4 + (tau_d / (2 gamma))^2) / mu + m g |w| / 2
+// Degenerate: without torsion a lever that counts, and without friction whatever lies across d, needs an infinite force.
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion) {
   const Real weight = mass * gravity;
   const Real along = glm::dot(direction, up);

@@ -255,10 +255,6 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
       answer.status = (answer.status | STATUS_SELF_OVERLAP) & ~std::uint32_t(STATUS_PLAUSIBLE);
   }
   if (vessel.on_table) examine_table(hand, vessel, closing.placement, answer);
-  if (vessel.arm.azimuths > 0) {
-    answer.wrist = find_wrist(vessel, closing.placement);
-    if (answer.wrist.share > 1) answer.status = (answer.status | STATUS_BEYOND_WRIST) & ~std::uint32_t(STATUS_PLAUSIBLE);
-  }
 }
 
 void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip grip, Real friction, Wanted wanted,
@@ -266,6 +262,9 @@ void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip g
   const Closing closing = close_fingers(hand, vessel, grip);
   if (closing.reason == REASON_NONE) {
     rest_hand(hand, vessel, pose, closing, friction, wanted, answer);
+    if (vessel.arm.azimuths == 0) return;
+    answer.wrist = find_wrist(vessel, closing.placement, grip.azimuth);
+    if (answer.wrist.share > 1) answer.status = (answer.status | STATUS_BEYOND_WRIST) & ~std::uint32_t(STATUS_PLAUSIBLE);
     return;
   }
   answer = GripAnswer{};

@@ -159,7 +159,7 @@ struct VesselData {
   std::vector<double> fills;  // of the scene's liquid, fractions of this vessel's capacity; empty where those of LiquidData hold
 
   bool has_cavity() const { return !inner.empty() || wall > 0; }
-  // Of a body of revolution about its axis in mass as well as in shape.
+  // A body of revolution about its axis, in mass as well as in shape.
   bool is_symmetric() const { return !mesh && (!mass || (center_of_mass[0] == 0 && center_of_mass[2] == 0)); }
 };
 
@@ -280,6 +280,7 @@ struct TaskData {
 // A table that is absent in the file is an absent optional here: that part of the work is left out.
 struct Scene {
   std::string name;
+  std::string version;  // of the program whose defaults the text has; empty: this one
   Pose pose = Pose::articulated;
   double gravity = 9.80665;  // m/s2
   HandData hand;

@@ -59,13 +59,15 @@ void ease_wrist(const Vessel& vessel, Mat3 rotation, Vec3 wrist, ArmReach reach,
   if (found.share < best.share) best = found;
 }
 
-// A holder who takes a body of revolution from another side is the same as one who is turned about its axis.
-Wrist find_wrist(const Vessel& vessel, const Placement& placement) {
+// A holder who takes a body of revolution from another side is the same as one who is turned about its axis. The turns are counted from the
+// grip's azimuth, so that this changes nothing about such a body.
+Wrist find_wrist(const Vessel& vessel, const Placement& placement, Real azimuth) {
   const Arm& arm = vessel.arm;
+  const Real from = arm.azimuths > 1 ? azimuth : Real(0);
   Wrist best;
   for (int k = 0; k < arm.azimuths; ++k) {
     Real s = 0, c = 0;
-    sine_cosine(Real(4) * HALF_PI * Real(k) / Real(arm.azimuths), s, c);
+    sine_cosine(Real(4) * HALF_PI * Real(k) / Real(arm.azimuths) - from, s, c);
     const Vec3 shoulder(c * arm.shoulder.x - s * arm.shoulder.z, arm.shoulder.y, s * arm.shoulder.x + c * arm.shoulder.z);
     const ArmReach reach = reach_wrist(vessel, placement.translation, shoulder, Vec3(c, 0, s));
     for (int i = 0; i < ARM_RAISES; ++i)

@@ -25,13 +25,14 @@ struct Wrist {
 
 // The share of a range that an angle takes: of `most` above 0, of `least` below. rad.
 Real range_share(Real angle, Real most, Real least);
-// Of an arm with its shoulder at `shoulder`, whose elbow is raised towards `side` (unit). An arm that is too short is straight, as the
+// How an arm reaches with its shoulder at `shoulder`, whose elbow is raised towards `side` (unit). An arm that is too short is straight, as the
 // holder leans. m.
 ArmReach reach_wrist(const Vessel& vessel, Vec3 wrist, Vec3 shoulder, Vec3 side);
 // Takes the place of `best` if the wrist of a hand with the axes `rotation` has a smaller share where the elbow is `raised`: 0 low, 1 at
 // the side. A forearm that reaches `depth` below the table counts as 1 + depth / elbow_radius at least.
 void ease_wrist(const Vessel& vessel, Mat3 rotation, Vec3 wrist, ArmReach reach, Real raised, Wrist& best);
-// The whole kernel: the least share over all places of the elbow and azimuths. Only of a vessel with an arm.
-Wrist find_wrist(const Vessel& vessel, const Placement& placement);
+// The whole kernel: the least share over all places of the elbow, and over the holder's azimuths, which are counted from that of the grip, rad. Only
+// of a vessel with an arm.
+Wrist find_wrist(const Vessel& vessel, const Placement& placement, Real azimuth);
 
 }  // namespace CORE_NS

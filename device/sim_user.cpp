@@ -80,7 +80,9 @@ std::optional<ChosenGrip> best_roll(const Evaluator& evaluator, std::size_t vess
 }
 
 std::vector<SimJob> plan_sim_jobs(const Scene& scene) {
-  const std::unique_ptr<Evaluator> evaluator = make_core_evaluator(scene);
+  Scene bare = scene;
+  bare.arm.reset();  // the user goes to where the vessel is
+  const std::unique_ptr<Evaluator> evaluator = make_core_evaluator(bare);
   std::vector<SimJob> jobs;
   auto wanted = scene.task ? scene.task->amounts : std::vector<std::pair<std::string, double>>{};
   bool is_tutored = false;

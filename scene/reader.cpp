@@ -75,9 +75,9 @@ void read_scene(const SceneTable& root, const StrengthData& strength, Scene& sce
 
 SceneDefaults defaults_of(const std::string& version) {
   const auto is_of = [&](const char* minor) { return version.rfind(minor, 0) == 0; };
-  if (is_of("0.1.")) return {WEIGHTS_0_1, true};
-  if (is_of("0.2.")) return {WEIGHTS_0_2, true};
-  return {{}, is_of("0.3.")};
+  if (is_of("0.1.")) return {WEIGHTS_0_1, version, true};
+  if (is_of("0.2.")) return {WEIGHTS_0_2, version, true};
+  return {{}, version, is_of("0.3.")};
 }
 
 Scene parse_scene(std::string_view text, const std::string& name, const SceneDefaults& unnamed) {
@@ -92,6 +92,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const SceneDef
   scene.name = stem_of(name);
   scene.file = name;
   scene.text = text;
+  scene.version = unnamed.version;
   const SceneTable root(file, table, "the scene",
                         {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "table",
                          "arm", "robust", "people", "live", "device", "task"});

@@ -12,6 +12,7 @@ namespace wholehand {
 // What a scene has that its text does not name.
 struct SceneDefaults {
   ScoreWeights score;
+  std::string version;         // as Scene::version
   bool is_before_0_4 = false;  // then the paper's hand; no strengths without [strength], and with it the same at every opening
 };
 

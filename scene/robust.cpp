@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: MIT
 // [robust]: how far a person grips from where the plan says.
+#include <algorithm>
+#include <array>
+
 #include "scene/parts.h"
 
 namespace wholehand {
+
+namespace {
+
+constexpr std::array SPREADS{"height_mm", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "friction", "hand_scale"};
+
+// Of a person who aims at a grip that is shown; docs/people.md has the reasons.
+RobustData aimed_grasp() {
+  RobustData data;
+  data.height = data.offset = 3e-3;
+  data.obliquity = data.roll = radians(5);
+  return data;
+}
+
+}  // namespace
 
 void read_robust(const SceneTable& root, std::optional<RobustData>& robust) {
   const auto table = root.table(
       "robust", {"height_mm", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "friction", "hand_scale", "count", "seed"});
   if (!table) return;
-  RobustData& data = robust.emplace();
+  if (std::none_of(SPREADS.begin(), SPREADS.end(), [&](const char* key) { return table->has(key); })) robust = aimed_grasp();
+  RobustData& data = robust ? *robust : robust.emplace();
   table->read("height_mm", ranges::LENGTH_DEVIATION, data.height);
   table->read("azimuth_deg", ranges::ANGLE_DEVIATION, data.azimuth);
   table->read("obliquity_deg", ranges::ANGLE_DEVIATION, data.obliquity);

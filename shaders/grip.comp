@@ -346,7 +346,7 @@ void main() {
   self_depth = BETWEEN > 0 ? digits_overlap() : Real(0);
   if (BETWEEN > 0 && self_depth > HAND_DEPTH_LIMIT) status = (status | STATUS_SELF_OVERLAP) & ~STATUS_PLAUSIBLE;
   if (ON_TABLE && table_depth > Real(0)) status = (status | STATUS_THROUGH_TABLE) & ~STATUS_PLAUSIBLE;
-  wrist_share = HOLDER_AZIMUTHS > 0 ? find_wrist(closing.placement).share : Real(0);
+  wrist_share = HOLDER_AZIMUTHS > 0 ? find_wrist(closing.placement, grip_axis(AXIS_AZIMUTH, grip)).share : Real(0);
   if (HOLDER_AZIMUTHS > 0 && wrist_share > Real(1)) status = (status | STATUS_BEYOND_WRIST) & ~STATUS_PLAUSIBLE;
   put_masks();
   put_whole(closing.closure, closing.thumb_angle, closing.index_angle);

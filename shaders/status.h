@@ -16,7 +16,7 @@ namespace wholehand {
 #define STATUS_WORD uint
 #endif
 
-// Feasible, nowhere too deep, and above the table: efforts are computed of these grips.
+// Feasible, nowhere too deep, above the table and within reach of the wrist: efforts are computed of these grips.
 STATUS_QUESTION is_plausible(STATUS_WORD status) {
   return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) == STATUS_PLAUSIBLE;
 }

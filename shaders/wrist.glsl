@@ -61,11 +61,12 @@ void ease_wrist(Mat3 rotation, Vec3 wrist, ArmReach reach, Real raised, inout Wr
   if (found.share < best.share) best = found;
 }
 
-Wrist find_wrist(Placement placement) {
+Wrist find_wrist(Placement placement, Real azimuth) {
+  Real from = HOLDER_AZIMUTHS > 1 ? azimuth : Real(0);
   Wrist best = Wrist(Real(0), Real(0), Real(0), NO_DISTANCE);
   [[dont_unroll]] for (int k = 0; k < HOLDER_AZIMUTHS; ++k) {
     Real s, c;
-    sine_cosine(Real(4) * HALF_PI * Real(k) / Real(HOLDER_AZIMUTHS), s, c);
+    sine_cosine(Real(4) * HALF_PI * Real(k) / Real(HOLDER_AZIMUTHS) - from, s, c);
     Vec3 shoulder =
         Vec3(c * scene.shoulder_x - s * scene.shoulder_z, scene.shoulder_y, s * scene.shoulder_x + c * scene.shoulder_z);
     ArmReach reach = reach_wrist(placement.translation, shoulder, Vec3(c, Real(0), s));

@@ -83,6 +83,7 @@ Scene force_scene(const Scene& scene, std::size_t vessel) {
   one.task.reset();
   one.strength.reset();
   one.robust.reset();
+  one.arm.reset();
   one.tilts.clear();
   one.until_poured.reset();
   return one;

@@ -15,7 +15,7 @@ std::string idle_strength_note(const Scene& scene) {
 std::string unjudged_note(const Scene& scene, const Plan& plan) {
   std::vector<std::string> missing;
   if (!scene.table) missing.emplace_back("without [table] fingers may reach under the base");
-  if (!scene.strength) missing.emplace_back("without [strength] any hand is strong enough");
+  if (!scene.strength) missing.emplace_back("with [strength] efforts = false any hand is strong enough");
   if (scene.tilts.empty()) missing.emplace_back("without [tilts] no force is judged");
   if (plan.grips() == 1) missing.emplace_back("with one grip a vessel there is nothing to compare");
   if (missing.empty()) return "";

@@ -12,7 +12,7 @@
 namespace wholehand {
 namespace {
 
-// Of the hand what tells it from the default one beside scale and side.
+// What tells a hand from the default one beside scale and side.
 HandData build_of(const Scene& scene) {
   HandData build = scene.hand;
   build.place = "";

@@ -86,7 +86,9 @@ void check_trial_scene(const Scene& scene, std::size_t scatter) {
   const char* name = scene.file.empty() ? "the scene" : scene.file.c_str();
   if (!scene.strength)
     throw usage_error(
-        fmt::format("{}: trials need the strength of the hand, and [strength] says efforts = false; leave efforts out", name));
+        fmt::format("{}: trials need the strength of the hand, which this scene does not have; leave efforts = false out of "
+                    "[strength], or sweep an older result again",
+                    name));
   if (scene.tilts.empty())
     throw usage_error(fmt::format("{}: trials need [tilts], as efforts do; add it to the scene, with its deg", name));
   if (scatter > 0 && !scene.robust)

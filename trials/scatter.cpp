@@ -6,7 +6,7 @@
 namespace wholehand {
 namespace {
 
-// Of all cases: the first that was discarded says why, else the first that was lost.
+// What a placement comes to over all cases: the first that was discarded says why, else the first that was lost.
 Placement placement_of(const std::vector<TrialOutcome>& outcomes) {
   Placement placement{true, true, TrialReason::none};
   for (const TrialOutcome& one : outcomes) {

@@ -239,7 +239,8 @@ TEST(Wrist, TheSideFromWhichAVesselIsTakenCountsWhereItsSidesDiffer) {
   double least = 1e9, most = 0;
   for (int k = 0; k < ARM_AZIMUTHS; ++k) {
     const double azimuth = 2 * PI * k / ARM_AZIMUTHS;
-    EXPECT_NEAR(share_at(beaker1(), azimuth), share_at(beaker1(), 0), 1e-9);
+    for (const double off : {0.0, radians(3), radians(7.5)})
+      EXPECT_NEAR(share_at(beaker1(), azimuth + off), share_at(beaker1(), 0), 1e-9) << k << " " << off;
     least = std::min(least, share_at(lopsided(), azimuth));
     most = std::max(most, share_at(lopsided(), azimuth));
   }

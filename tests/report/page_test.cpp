@@ -137,7 +137,7 @@ TEST(ReportPage, OfAHandWithStrengthTellsWhatHoldingTakes) {
 
 TEST(ReportPage, WithoutStrengthEffortIsNotSpokenOf) {
   const std::string page = page_of(SweptScene(RESULT_SCENE));
-  EXPECT_TRUE(has(page, "The effort of the whole hand: [strength] says efforts = false."));
+  EXPECT_TRUE(has(page, "The effort of the whole hand: the scene has no strengths."));
   for (const char* part : {">Effort over the tilt</h3>", "What others call", ">effort</dt>", "Normal force of each digit",
                            "This grip is good because ", ">margin</dt>"})
     EXPECT_FALSE(has(page, part)) << part;

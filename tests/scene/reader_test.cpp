@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/hand_size.h"
@@ -341,6 +342,9 @@ TEST(SceneReader, ReadsRobust) {
   EXPECT_EQ(usual.robust->count, 64);
   EXPECT_EQ(usual.robust->seed, 1u);
   EXPECT_EQ(usual.robust->height, 0);
+  const RobustData aimed = scene_from("[robust]\ncount = 16" + VESSEL).robust.value();
+  EXPECT_EQ(std::tuple(aimed.height, aimed.offset, aimed.obliquity, aimed.roll), std::tuple(3e-3, 3e-3, radians(5), radians(5)));
+  EXPECT_EQ(std::tuple(aimed.azimuth, aimed.friction, aimed.hand_scale, aimed.count), std::tuple(0.0, 0.0, 0.0, 16));
   const Scene all = scene_from(
       "[robust]\nheight_mm = 3\nazimuth_deg = 4\nobliquity_deg = 5\noffset_mm = 6\nfriction = 0.07\nhand_scale = 0.08\n"
       "count = 128\nseed = 9" +

@@ -72,5 +72,5 @@ void main() {
     answer(2, best.pronation);
     answer(3, best.share);
   }
-  if (PROBE == PROBE_FIND_WRIST) answer(0, find_wrist(given_placement()).share);
+  if (PROBE == PROBE_FIND_WRIST) answer(0, find_wrist(given_placement(), given(1)).share);
 }

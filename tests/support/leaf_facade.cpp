@@ -264,7 +264,7 @@ Wrist eased_wrist(const Hand& hand, const Vessel& vessel, Real closure, Real azi
 
 Real least_share(const Hand& hand, const Vessel& vessel, Real closure, Real azimuth, Real obliquity, Real roll, Vec3 midpoint,
                  Real scale) {
-  return find_wrist(vessel, placed(hand, closure, azimuth, obliquity, roll, midpoint, scale)).share;
+  return find_wrist(vessel, placed(hand, closure, azimuth, obliquity, roll, midpoint, scale), azimuth).share;
 }
 
 Closing close_widened(const Hand& hand, const Vessel& vessel, Grip grip, Real index_more, Real thumb_more) {
