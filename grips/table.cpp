@@ -287,7 +287,7 @@ std::string grip_verdict(const Scene& scene, const GripReport& report) {
   }
   std::string text = report.hold ? hold_verdict(scene, report)
                                  : fmt::format("Whether the grip holds is not judged: the scene has no {}.\n",
-                                               scene.strength ? "[tilts]" : "[strength]");
+                                               scene.strength ? "[tilts]" : "efforts");
   if (report.held_share) {
     text += fmt::format("It {} in {} % of {} deviations from its place.\n", report.hold ? "holds" : "is plausible",
                         fixed_text(std::floor(100 * *report.held_share), 0), scene.robust->count);

@@ -55,7 +55,7 @@ std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best) 
   if (best.empty()) return has_effort(scene) ? "no grip is feasible and plausible and holds" : "no grip is feasible and plausible";
   const BestGrip& first = best.front();
   if (!has_effort(scene)) {
-    return fmt::format("whether it holds is not judged without {}; grip {} scores {}", scene.strength ? "[tilts]" : "[strength]",
+    return fmt::format("whether it holds is not judged without {}; grip {} scores {}", scene.strength ? "[tilts]" : "efforts",
                        first.rank, fixed_text(first.score, 3));
   }
   const double effort = first.efforts.worst, share = first.robust.share;

@@ -17,7 +17,7 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& co
 std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths);
 
 // The same in short: "2,133 of 9,216 grips hold; 168 not held, 5,413 through the table, 1,454 too deep, 48 on mouth". `judges_holding`:
-// the scene has [strength] and tilts; else those that are left are plausible.
+// the scene has efforts; else those that are left are plausible.
 std::string short_counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths, bool judges_holding);
 
 }  // namespace wholehand

@@ -463,7 +463,7 @@ TEST(GripVerdict, SaysWhetherItHoldsWhatFailsFirstAndHowSurely) {
   scene.force.friction = 0.6;
   GripReport report = report_of(scene, feasible_result());
   const std::string unsure = "Off its place the grip is not judged: the scene has no [robust].\n";
-  EXPECT_EQ(grip_verdict(scene, report), "Whether the grip holds is not judged: the scene has no [strength].\n" + unsure);
+  EXPECT_EQ(grip_verdict(scene, report), "Whether the grip holds is not judged: the scene has no efforts.\n" + unsure);
   scene.strength.emplace();
   report.hold = GripHold{};
   report.hold->worst = 0.25;

@@ -40,7 +40,7 @@ TEST(Closing, VerdictSaysWhetherTheFirstGripHoldsAndHowSurely) {
   Scene scene = fake_scene();
   BestGrip grip;
   grip.score = 0.8126;
-  EXPECT_EQ(verdict_text(scene, {grip}), "whether it holds is not judged without [strength]; grip 1 scores 0.813");
+  EXPECT_EQ(verdict_text(scene, {grip}), "whether it holds is not judged without efforts; grip 1 scores 0.813");
   EXPECT_EQ(verdict_text(scene, {}), "no grip is feasible and plausible");
   scene.strength.emplace();
   EXPECT_EQ(verdict_text(scene, {}), "no grip is feasible and plausible and holds");

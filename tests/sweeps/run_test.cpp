@@ -103,9 +103,9 @@ TEST_F(RunTest, EachHandScaleHasAListOfItsOwn) {
         }
       }
       EXPECT_TRUE(
-          has(outcome.out, "\nfirst vessel, hand scale 1.1: whether it holds is not judged without [strength]; grip 1 scores "))
+          has(outcome.out, "\nfirst vessel, hand scale 1.1: whether it holds is not judged without efforts; grip 1 scores "))
           << outcome.out;
-      EXPECT_TRUE(has(outcome.out, "\nsecond, hand scale 0.9: whether it holds is not judged without [strength]; grip 1 scores "))
+      EXPECT_TRUE(has(outcome.out, "\nsecond, hand scale 0.9: whether it holds is not judged without efforts; grip 1 scores "))
           << outcome.out;
       const std::string csv = file_text(folder / "a.best.csv");
       EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 6 * 6);
