@@ -33,6 +33,7 @@ BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t 
   best.gap = real(FIELD_GAP);
   best.phalanx_depth = real(FIELD_PHALANX_DEPTH);
   best.palm_depth = real(FIELD_PALM_DEPTH);
+  if (scene.arm) best.wrist_share = real(FIELD_WRIST_SHARE);
   best.fingers_used = std::popcount(chunk.uint(fields.plane[FIELD_USED_MASK], i));
   best.antipodal = (chunk.uint(fields.plane[FIELD_STATUS], i) & STATUS_ANTIPODAL) != 0;
   best.points_touching = std::popcount(chunk.uint(fields.plane[FIELD_TOUCH_MASK], i));
@@ -75,6 +76,7 @@ void narrow(std::vector<Column>& columns, const std::string& head, std::size_t i
 
 std::vector<int> best_fields(const Scene& scene) {
   std::vector<int> fields{FIELD_GAP, FIELD_CLOSURE, FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH};
+  if (scene.arm) fields.push_back(FIELD_WRIST_SHARE);
   if (!scene.tilts.empty()) fields.insert(fields.end(), {FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_SAFE_TILT});
   if (has_effort(scene)) {
     fields.insert(fields.end(), {FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT, FIELD_TIPS_WORST_EFFORT,
@@ -159,6 +161,7 @@ std::string best_csv_head(const Scene& scene) {
       "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,"
       "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,";
   if (scene.robust) csv += "robust_mean,robust_low,robust_share,";
+  if (scene.arm) csv += "wrist_share,";
   return csv + "grip,result,sweep\n";
 }
 
@@ -184,6 +187,7 @@ std::string best_csv_row(const Scene& scene, const std::string& vessel, const Be
                               degrees(refined.roll), refined.offset * 1e3})
     numbers.push_back(is_refined ? number : NOT_A_NUMBER);
   if (scene.robust) numbers.insert(numbers.end(), {best.robust.mean, best.robust.low, best.robust.share});
+  if (scene.arm) numbers.push_back(best.wrist_share);
   std::string row = fmt::format("{},{}", csv_text(vessel), best.rank);
   for (const double number : numbers) row += "," + csv_number(number);
   return row + fmt::format(",{},{},{}\n", best.candidate.index, csv_text(origin.result), origin.sweep);

@@ -43,14 +43,15 @@ struct BestGrip {
   double gap = 0;  // m
   int fingers_used = 0, points_touching = 0;
   bool antipodal = false;
-  double phalanx_depth = 0, palm_depth = 0;  // m
-  double peak_force = 0;                     // largest feedback force, N
-  double peak_tilt = 0;                      // of it, rad
-  double largest_hold = 0;                   // of each of two tips, N, may be infinite
-  double safe_tilt = 0;                      // smallest over the fills, rad; NaN where a fill has none
-  bool is_safe_to_end = false;               // at every fill it is the last tilt that counts: more was not asked
-  GripEfforts efforts;                       // NaN in a scene without efforts
-  GripInput refined{};                       // the best place near the grip (sweeps/refine.h), where there is a score of it
+  double phalanx_depth = 0, palm_depth = 0;                       // m
+  double wrist_share = std::numeric_limits<double>::quiet_NaN();  // NaN in a scene without [arm]
+  double peak_force = 0;                                          // largest feedback force, N
+  double peak_tilt = 0;                                           // of it, rad
+  double largest_hold = 0;                                        // of each of two tips, N, may be infinite
+  double safe_tilt = 0;                                           // smallest over the fills, rad; NaN where a fill has none
+  bool is_safe_to_end = false;  // at every fill it is the last tilt that counts: more was not asked
+  GripEfforts efforts;          // NaN in a scene without efforts
+  GripInput refined{};          // the best place near the grip (sweeps/refine.h), where there is a score of it
   double refined_score = std::numeric_limits<double>::quiet_NaN();
   RobustScore robust{};  // NaN in a scene without [robust]
 };

@@ -197,6 +197,7 @@ std::vector<std::string> row_variables(const Scene& scene) {
   for (std::size_t term = 0; term < TERMS.size(); ++term)
     if (has_term(scene, term)) names.push_back(variable_of(term));
   names.insert(names.end(), {"closure", "gap", "fingers_used", "points_touching", "phalanx_depth", "palm_depth", "antipodal"});
+  if (scene.arm) names.emplace_back("wrist_share");
   for (const int field : best_fields(scene))
     if (is_of_states(field)) names.push_back(field_row(field).variable);
   return names;
@@ -218,6 +219,7 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
   }
   const auto closure = pick("closure"), gap = pick("gap"), fingers = pick("fingers_used"), points = pick("points_touching"),
              phalanx = pick("phalanx_depth"), palm = pick("palm_depth"), antipodal = pick("antipodal");
+  const auto wrist = scene.arm ? pick("wrist_share") : std::vector<double>();
   std::map<int, std::vector<std::vector<double>>> of_states;  // by field and plane
   for (const int field : best_fields(scene)) {
     if (!is_of_states(field)) continue;
@@ -236,6 +238,7 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
     best[i].points_touching = static_cast<int>(points[i]);
     best[i].phalanx_depth = phalanx[i];
     best[i].palm_depth = palm[i];
+    if (scene.arm) best[i].wrist_share = wrist[i];
     best[i].antipodal = antipodal[i] != 0;
     best[i].grip = plan.grip(vessel, grips[i]);
     set_worst(best[i], scene, last, [&](int field, int plane) { return of_states.at(field)[static_cast<std::size_t>(plane)][i]; });

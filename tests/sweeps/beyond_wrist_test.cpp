@@ -55,6 +55,9 @@ TEST(BeyondWrist, NoListHasAHandThatNoArmReaches) {
   const Ranking ranking =
       rank_grips(*swept.result, swept.scene, *swept.plan, {"", {}, 100, 0}, [&] { return make_core_evaluator(swept.scene); });
   EXPECT_EQ(ranking.lists[0].front().candidate.index, best.front().index);
+  for (const BestGrip& grip : ranking.lists[0]) EXPECT_EQ(grip.wrist_share, shares[grip.candidate.index]);
+  const std::string csv = best_csv(swept.scene, *swept.plan, ranking.lists, {});
+  EXPECT_NE(csv.find(",wrist_share,grip,result,sweep\n"), std::string::npos) << csv.substr(0, csv.find('\n'));
   for (const BestGrip& grip : ranking.lists[0]) EXPECT_EQ(beyond[grip.candidate.index], 0);
   const Ranking easy = rank_grips(*swept.result, swept.scene, *swept.plan, {"", {"wrist_share < 0.3"}, 100, 0},
                                   [&] { return make_core_evaluator(swept.scene); });

@@ -21,6 +21,8 @@
 #include "core/hand_size.h"
 #include "core/normal.h"
 #include "core/prepare.h"
+#include "grips/methods.h"
+#include "grips/report.h"
 #include "host/open_backend.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
