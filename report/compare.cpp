@@ -55,6 +55,7 @@ struct ListedGrip {
   std::size_t rank = 1;
   Candidate candidate;
   GripInput grip;
+  double robust = std::numeric_limits<double>::quiet_NaN();  // the 10th percentile by which it is ranked
 };
 
 // The numbers that are compared of a vessel, and their digits behind the point.
@@ -99,9 +100,13 @@ VesselSums sums_of(const Side& side, std::size_t vessel) {
   }
   auto& listed = vessel_sums.listed;
   const std::size_t scales = side.plan.hand_scales();
-  for (std::size_t list = vessel * scales; list < (vessel + 1) * scales; ++list)
-    for (const RankedCandidate& ranked : side.lists[list])
+  for (std::size_t list = vessel * scales; list < (vessel + 1) * scales; ++list) {
+    const std::vector<RobustScore> robust = side.result.robust(vessel, list % scales);
+    for (const RankedCandidate& ranked : side.lists[list]) {
       listed.push_back({ranked.rank, ranked.candidate, side.plan.grip(vessel, ranked.candidate.index)});
+      if (ranked.rank <= robust.size()) listed.back().robust = robust[ranked.rank - 1].low;
+    }
+  }
   std::stable_sort(listed.begin(), listed.end(), [](const auto& x, const auto& y) { return x.rank < y.rank; });
   for (std::size_t k = 0; k < listed.size(); ++k) {
     sums[BEST_SCORE] = std::fmax(sums[BEST_SCORE], listed[k].candidate.score);
@@ -231,7 +236,8 @@ bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   add("version", from_a.version == from_b.version, from_a.version, from_b.version, false);
   if (!rules.empty()) part.sentences.push_back(fmt::format("Scores are not of one rule: other {}.", joined(rules, ", other ")));
   if (table.rows.empty()) {
-    part.sentences.emplace_back("Hand, strength, arm, weights, gate, robust settings, device, precision and version are the same.");
+    part.sentences.emplace_back(
+        "Hand, strength, arm, force, states, weights, gate, robust settings, device, precision and version are the same.");
   } else {
     part.tables.push_back(std::move(table));
   }
@@ -256,6 +262,8 @@ CompareTable first_grips(const Side& a, std::size_t vessel_a, const VesselSums& 
   CompareTable table{"The first grips of A, and where they are now",
                      {"grip", "rank in A", "in B", "score A", "score B", "effort A", "effort B"},
                      {}};
+  const bool is_robust = a.scene.robust && b.scene.robust;  // both lists are ranked by these scores
+  if (is_robust) table.columns.insert(table.columns.end(), {"robust A", "robust B"});
   for (std::size_t k = 0; k < std::min(FIRST_GRIPS, sums_a.listed.size()); ++k) {
     const ListedGrip& grip = sums_a.listed[k];
     const ListedGrip* now = find_listed(sums_b, grip.grip);
@@ -269,6 +277,9 @@ CompareTable first_grips(const Side& a, std::size_t vessel_a, const VesselSums& 
                           fixed_text(grip.candidate.score, 3), fixed_text(now ? now->candidate.score : value_b("score"), 3),
                           fixed_text(a.value("worst_effort", vessel_a, grip.candidate.index), 3),
                           fixed_text(value_b("worst_effort"), 3)});
+    if (is_robust)
+      for (const double robust : {grip.robust, now ? now->robust : std::nan("")})
+        table.rows.back().push_back(fixed_text(robust, 3));
   }
   return table;
 }

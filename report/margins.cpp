@@ -67,7 +67,8 @@ std::string term_number(const GripReport& report, std::size_t term) {
     case DEPTH_TERM:
       return shown_number(1e3 * std::max(result.phalanx_depth, result.palm_depth), 1) + "\u00a0mm";
     case POSTURE_TERM:
-      return shown_number(result.closure, 2);
+      return "closure " + shown_number(result.closure, 2) +
+             (std::isnan(result.wrist_share) ? "" : ", wrist at " + percent_text(result.wrist_share) + " of its range");
     case FORCE_TERM:
       return shown_number(std::max(0.0, largest_normal_force(report)), 1) + "\u00a0N";
     case HOLD_TERM:
@@ -88,7 +89,7 @@ std::string term_reason(const Scene& scene, const Merit& merit) {
       return number == NO_DEPTH ? "the hand does not reach into the glass"
                                 : fmt::format("the hand is at most {} deep in the glass", number);
     case POSTURE_TERM:
-      return fmt::format("the hand is near the middle of its range (closure {})", number);
+      return fmt::format("{} ({})", scene.arm ? "the posture is easy" : "the hand is near the middle of its range", number);
     case FORCE_TERM:
       return fmt::format("the gripper renders at most {} of its {}\u00a0N", number, plain_number(scene.force.max));
     case HOLD_TERM:

@@ -60,8 +60,10 @@ std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best) 
   }
   const double effort = first.efforts.worst, share = first.robust.share;
   if (std::isinf(effort)) return fmt::format("no grip holds; no force of the hand holds it in grip {}", first.rank);
+  const int digits =
+      effort < 0.0995 || (effort != 1 && std::abs(effort - 1) < 5e-3) ? 1 : 0;  // else all of the strength would be held and not
   const std::string strength =
-      fmt::format("{} % of the hand's strength (margin {})", fixed_text(100 * effort, 0), fixed_text(held_margin(effort), 2));
+      fmt::format("{} % of the hand's strength (margin {})", fixed_text(100 * effort, digits), fixed_text(held_margin(effort), 2));
   if (!(effort <= 1)) return fmt::format("no grip holds; grip {} takes {}", first.rank, strength);
   return fmt::format("grip {} holds with {}{}", first.rank, strength,
                      !std::isnan(share) ? fmt::format("{} in {}{} % of its deviations", share < SURE_SHARE ? ", but" : " and",

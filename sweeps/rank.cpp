@@ -431,8 +431,8 @@ RankBy read_rank_by(const std::string& text, const Scene& scene) {
   if (text == "score") return RankBy::score;
   const bool needs_effort = text == "worst_effort" || text == "push";
   if (text == "robust" && !scene.robust)
-    throw usage_error(
-        "--rank-by robust needs [robust], which the scene of this file does not have; allowed: score, worst_effort or push");
+    throw usage_error(fmt::format("--rank-by robust needs [robust], which the scene of this file does not have; allowed: score{}",
+                                  has_effort(scene) ? ", worst_effort or push" : ""));
   if (needs_effort && !has_effort(scene))
     throw usage_error(
         fmt::format("--rank-by {} needs efforts, which the scene of this file does not have ([tilts], and [strength] without "

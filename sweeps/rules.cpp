@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
 #include <vector>
 
+#include "core/hand_size.h"
 #include "core/planes.h"
 #include "core/text.h"
 #include "system/readable.h"
@@ -22,7 +24,9 @@ HandData build_of(const Scene& scene) {
 }
 
 std::string hand_text(const Scene& scene) {
-  return fmt::format("{}, scale {}{}", scene.hand.handedness == Handedness::right ? "right" : "left", plain_text(scene.hand.scale),
+  const HandSize size = size_of(scene.hand);
+  return fmt::format("{}, {:.1f} x {:.1f} mm, scale {}{}", scene.hand.handedness == Handedness::right ? "right" : "left",
+                     1e3 * size.length, 1e3 * size.breadth, plain_text(scene.hand.scale),
                      build_of(scene) == HandData() ? "" : ", other numbers than by default");
 }
 
@@ -38,6 +42,32 @@ std::string arm_text(const Scene& scene) {
   std::vector<std::string> place;
   for (const double coordinate : scene.arm->shoulder) place.push_back(plain_text(coordinate * 1e3));
   return "shoulder at " + joined(place, ", ") + " mm";
+}
+
+// What a vessel's own force_range_N replaces is not here.
+auto force_of(const Scene& scene) {
+  const ForceData& force = scene.force;
+  return std::tuple(scene.pose, scene.gravity, force.base, force.range, force.torque, force.reference, force.max, force.friction,
+                    force.torsion, scene.table ? scene.table->clearance : -1);
+}
+
+std::string force_text(const Scene& scene) {
+  const ForceData& force = scene.force;
+  return fmt::format("friction {}, torsion {} mm, {} to {} N, at most {} N, gravity {} m/s2, {}", plain_text(force.friction),
+                     plain_text(1e3 * force.torsion), plain_text(force.base), plain_text(force.base + force.range),
+                     plain_text(force.max), plain_text(scene.gravity), scene.table ? "a table" : "no table");
+}
+
+auto states_of(const Scene& scene) {
+  return std::tuple(scene.tilts, scene.until_poured, scene.liquid ? scene.liquid->density : 0,
+                    scene.liquid ? scene.liquid->fills : std::vector<double>(),
+                    scene.liquid ? scene.liquid->volumes : std::vector<double>());
+}
+
+std::string states_text(const Scene& scene) {
+  if (scene.tilts.empty()) return "none";
+  return fmt::format("{} up to {} deg, {}{}", counted(scene.tilts.size(), "tilt"), plain_text(degrees(scene.tilts.back())),
+                     scene.liquid ? counted(scene_fills(scene), "fill") : "no liquid", scene.until_poured ? ", until poured" : "");
 }
 
 std::string robust_text(const Scene& scene) {
@@ -63,6 +93,8 @@ std::array<Rule, RULE_COUNT> rules_of(const Scene& scene) {
   return {{{"hand", hand_text(scene)},
            {"strength", strength_text(scene)},
            {"arm", arm_text(scene)},
+           {"force", force_text(scene)},
+           {"states", states_text(scene)},
            {"weights", weights_text(scene)},
            {"gate", has_effort(scene) ? "a worst effort of at most 1" : "none"},
            {"robust settings", robust_text(scene)}}};
@@ -72,6 +104,8 @@ std::array<bool, RULE_COUNT> shared_rules(const Scene& a, const Scene& b) {
   return {build_of(a) == build_of(b) && a.hand.scale == b.hand.scale && a.hand.handedness == b.hand.handedness,
           a.strength == b.strength,
           a.arm == b.arm,
+          force_of(a) == force_of(b),
+          states_of(a) == states_of(b),
           effective_weights(a) == effective_weights(b),
           has_effort(a) == has_effort(b),
           a.robust == b.robust};

@@ -146,7 +146,7 @@ std::vector<std::vector<std::string>> list_rows(const std::string& path) {
 // The grips of two sweeps compete for the places of one list.
 TEST(RankSeveral, GripsOfOneRuleShareAList) {
   const SweptScene low(edited(RESULT_SCENE, "\"flask\"", "\"bottle\"")),
-      high(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills = [0, 0.9]"));
+      high(edited(RESULT_SCENE, "roll_deg = [-90, -30, 0]", "roll_deg = [-80, -20, 10]"));
   const std::string list = low.folder / "list.csv";
   const Outcome outcome = run("PROGRAM rank " + low.path + " " + high.path + " --best 8 -o " + list + " 2>&1");
   ASSERT_EQ(outcome.code, 0) << outcome.output;
@@ -190,11 +190,15 @@ TEST(RankSeveral, OtherRulesAreRefusedInALineThatNamesThem) {
   };
   const auto with = [](const std::string& table) { return edited(RESULT_SCENE, "[tilts]", table + "\n[tilts]"); };
   refused(with("[hand]\nscale = 0.9"), "",
-          "hand 'right, scale 0.9', but 'right, scale 1' in " + usual.path + "; allowed: results of one hand");
+          "hand 'right, 187.2 x 83.2 mm, scale 0.9', but 'right, 187.2 x 83.2 mm, scale 1' in " + usual.path +
+              "; allowed: results of one hand");
   refused(with("[robust]\nroll_deg = 5"), "", "robust settings '64 deviations, seed 1, roll 5 deg', but 'none' in ");
   refused(edited(RESULT_SCENE, NO_EFFORTS, "[strength]\nthumb_N = 31\n"), "", "strength '31, ");
   refused(with("[arm]"), "", "arm 'shoulder at ");
-  refused(with("[hand]\nbetween = 1"), "", "hand 'right, scale 1, other numbers than by default', but 'right, scale 1' in ");
+  refused(with("[force]\nfriction = 0.7"), "", "force 'friction 0.7, ");
+  refused(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills = [0, 0.9]"), "", "states '4 tilts up to 135 deg, 2 fills', but ");
+  refused(with("[hand]\nbetween = 1"), "",
+          "hand 'right, 187.2 x 83.2 mm, scale 1, other numbers than by default', but 'right, 187.2 x 83.2 mm, scale 1' in ");
   refused(with("[score]\nhold = 0.5"), "", "weights '");
   refused(with("[score]\nhold = 0.5"), " --weights depth=1", "weights '");
   const SweptScene other(with("[score]\nhold = 0.5"));

@@ -90,7 +90,7 @@ TEST_F(ResultContentsTest, AttributesSayWhereItCameFrom) {
   EXPECT_EQ(read_text(path, "reason", "flag_meanings"), "none degenerate not_converged misses too_wide too_narrow on_mouth");
   EXPECT_NE(read_text(path, "score_depth", "comment").find("10 mm"), std::string::npos);
   const std::string rules = "\n" + read_text(path, "", "rules") + "\n";
-  for (const char* rule : {"hand: right, scale 1", "strength: none", "gate: none", "robust settings: none",
+  for (const char* rule : {"hand: right, 187.2 x 83.2 mm, scale 1", "strength: none", "gate: none", "robust settings: none",
                            "weights: fingers 0.02, contacts 0.02, depth 0.69, posture 0.02, force 0.13, hold 0.12"})
     EXPECT_NE(rules.find(std::string("\n") + rule + "\n"), std::string::npos) << rule << " is not in" << rules;
   const std::string text = dump(path);
