@@ -186,8 +186,7 @@ std::vector<std::string> left_out(const ReportSource& source) {
   if (scene.pose == Pose::rigged) sentences.emplace_back("The projection of the fingers: the pose is rigged.");
   if (scene.tilts.empty())
     sentences.emplace_back("The forces: the scene has no tilts. Their weights in the score went to the other terms.");
-  if (!scene.strength && !scene.tilts.empty())
-    sentences.emplace_back("The effort of the whole hand: the scene has no strengths.");
+  if (!scene.strength && !scene.tilts.empty()) sentences.emplace_back("The effort of the whole hand: the scene has no strengths.");
   if (!scene.liquid) sentences.emplace_back("The liquid: the scene has no liquid.");
   if (!scene.table) sentences.emplace_back("The table: the scene has no table, so a hand may reach below the base of a vessel.");
   if (!scene.arm)

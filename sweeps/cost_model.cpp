@@ -86,8 +86,8 @@ SweepTask sweep_task(const Scene& scene, std::uint64_t grips, int threads, const
 
 std::string kind_of(const SweepTask& task) {
   return fmt::format("{}, {}, {}{} between, 2^{} states, {} threads, {}", task.has_efforts ? "efforts" : "no efforts",
-                     task.has_mesh ? "mesh" : "outlines", task.is_robust ? "robust, " : "", task.between, std::bit_width(task.states), task.threads,
-                     task.precision.empty() ? "usual precision" : task.precision);
+                     task.has_mesh ? "mesh" : "outlines", task.is_robust ? "robust, " : "", task.between,
+                     std::bit_width(task.states), task.threads, task.precision.empty() ? "usual precision" : task.precision);
 }
 
 CostEstimate estimate(std::span<const RunTime> history, const std::string& machine, const SweepTask& task, bool on_core,

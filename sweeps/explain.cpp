@@ -322,7 +322,8 @@ class Explainer {
         "passed by once the worst is known\n",
         grips, static_cast<double>(pivots) / static_cast<double>(states),
         100 * static_cast<double>(skipped) / static_cast<double>(states));
-    say("    the gate reads the worst effort and costs nothing more: {} of these grips are not held, and nothing judges them further\n",
+    say("    the gate reads the worst effort and costs nothing more: {} of these grips are not held, and nothing judges them "
+        "further\n",
         unheld);
   }
 

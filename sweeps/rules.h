@@ -15,7 +15,17 @@ struct Rule {
   std::string text;
 };
 
-enum RulePlace : std::size_t { RULE_HAND, RULE_STRENGTH, RULE_ARM, RULE_FORCE, RULE_STATES, RULE_WEIGHTS, RULE_GATE, RULE_ROBUST, RULE_COUNT };
+enum RulePlace : std::size_t {
+  RULE_HAND,
+  RULE_STRENGTH,
+  RULE_ARM,
+  RULE_FORCE,
+  RULE_STATES,
+  RULE_WEIGHTS,
+  RULE_GATE,
+  RULE_ROBUST,
+  RULE_COUNT
+};
 
 // Those of a scene by RulePlace, in words: a result has them in its attribute `rules`.
 std::array<Rule, RULE_COUNT> rules_of(const Scene& scene);

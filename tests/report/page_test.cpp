@@ -131,7 +131,8 @@ TEST(ReportPage, OfAHandWithStrengthTellsWhatHoldingTakes) {
     ASSERT_NE(next, std::string::npos) << part;
     at = next;
   }
-  EXPECT_TRUE(has(page, "strength of the digits in N at the best opening: thumb 40, index 25, middle 35, ring 25, little 14, palm 80"));
+  EXPECT_TRUE(
+      has(page, "strength of the digits in N at the best opening: thumb 40, index 25, middle 35, ring 25, little 14, palm 80"));
   EXPECT_EQ(has(page, "least worst effort over height and roll"), swept.result->find("worst_effort") != nullptr);
 }
 

@@ -340,7 +340,7 @@ TEST_F(TrialsTest, AnEngineThatFailsLeavesTheJournal) {
 TEST_F(TrialsTest, ScenesThatHaveNoEffortsAreRefused) {
   scene.strength.reset();
   EXPECT_TRUE(has(run().error, "trials need the strength of the hand"));
-  EXPECT_TRUE(has(run().error, "leave efforts out"));
+  EXPECT_TRUE(has(run().error, "leave efforts = false out of"));
   scene.strength = StrengthData{};
   scene.tilts.clear();
   EXPECT_TRUE(has(run().error, "trials need [tilts]"));
