@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "charts/style.h"
 #include "core/candidates.h"
@@ -38,12 +39,15 @@ std::string vessel_id(std::size_t vessel) { return fmt::format("vessel{}", vesse
 
 std::string page_title(const Scene& scene) { return scene.name.empty() ? "Grips of a scene" : "Grips of " + scene.name; }
 
+// A list keeps its order, which need not be that of the scores; of several the first grips come first, the better score before.
 std::vector<Candidate> best_first(const std::vector<ReportedGrips>& lists) {
+  std::vector<std::pair<std::size_t, Candidate>> placed;
+  for (const ReportedGrips& best : lists)
+    for (std::size_t k = 0; k < best.grips.size(); ++k) placed.emplace_back(k, best.grips[k].candidate);
+  std::sort(placed.begin(), placed.end(),
+            [](const auto& a, const auto& b) { return a.first != b.first ? a.first < b.first : is_better(a.second, b.second); });
   std::vector<Candidate> candidates;
-  for (const ReportedGrips& best : lists) {
-    for (const BestGrip& grip : best.grips) candidates.push_back(grip.candidate);
-  }
-  std::sort(candidates.begin(), candidates.end(), is_better);
+  for (const auto& [place, candidate] : placed) candidates.push_back(candidate);
   return candidates;
 }
 
