@@ -169,7 +169,7 @@ TEST(FollowedRemedies, HelpTrialsAndStudies) {
              "[task]\ntarget = { place_mm = [0, 80, -280], diameter_mm = 120 }\namounts_ml = { red = 60 }\ntolerance_ml = 5\n"
              "destination_mm = [0, 0, -280]\n";
   expect_helps({
-      {CUP + TILTS + EFFORTLESS, one, "leave efforts out", CUP + TILTS + STRENGTH, one},
+      {CUP + TILTS + EFFORTLESS, one, "leave efforts = false out", CUP + TILTS + STRENGTH, one},
       {CUP + STRENGTH, one, "add it to the scene, with its deg", CUP + STRENGTH + TILTS, one},
       {CUP + STRENGTH + TILTS, one + "--fill 0.5", "add one with its fills", WHOLE, one + "--fill 0.5"},
       {CUP + STRENGTH + TILTS, one + "--fill 0.5", "or leave --fill out", CUP + STRENGTH + TILTS, one},
@@ -206,7 +206,7 @@ TEST(FollowedRemedies, HelpLive) {
   expect_helps({
       {board, quick + "--advise-on core", "add --advise", board, quick + "--advise --advise-on core"},
       {board, quick + "--follow-advice", "add --advise", board, quick + "--advise --follow-advice"},
-      {board + EFFORTLESS, quick + "--advise --advise-on core", "leave efforts out", board + STRENGTH,
+      {board + EFFORTLESS, quick + "--advise --advise-on core", "leave efforts = false out", board + STRENGTH,
        quick + "--advise --advise-on core"},
       {board, recorded + replay + "--advise --follow-advice", "allowed: with --device sim", board,
        quick + "--advise --follow-advice"},
