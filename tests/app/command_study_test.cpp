@@ -103,7 +103,7 @@ TEST_F(StudyCommand, AdviceIsTheSameOnAnyThreads) {
   const std::string page = file_text(folder / "one/study.html"), doctype = "<!DOCTYPE html>\n";
   ASSERT_TRUE(page.starts_with(doctype));
   expect_well_formed(page.substr(doctype.size()));
-  expect_error("study " + weak + " --experiment advice -o " + (folder / "no"), 2, "leave efforts out");
+  expect_error("study " + weak + " --experiment advice -o " + (folder / "no"), 2, "leave efforts = false out");
 }
 
 // Stopped when the journal has somebody: nothing is half written, and what is done is not done again.

@@ -108,7 +108,7 @@ TEST_F(LiveAdvised, RefusesWhatDoesNotGoTogether) {
   write_file(weak,
              "[scene]\nname = \"weak\"\n[[vessel]]\nname = \"cup\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = "
              "110\nwall_mm = 2\n[strength]\nefforts = false\n");
-  expect_error("live " + weak + " --advise --advise-on core", 2, "leave efforts out");
+  expect_error("live " + weak + " --advise --advise-on core", 2, "leave efforts = false out");
 }
 
 // ---- the parts ----

@@ -45,8 +45,8 @@ TEST(CompareResults, HalfTheStrengthDoublesTheEffortsOfTheSameGrips) {
   ASSERT_EQ(parts[0].changes.size(), 12u);
   EXPECT_EQ(parts[0].changes[0], "- [strength] index_N = 24");
   EXPECT_EQ(parts[0].changes[1], "+ [strength] index_N = 12");
-  EXPECT_EQ(row_of(parts[0], "strength"), (std::vector<std::string>{"40, 24, 36, 24, 16, 80 N, less as the hand opens",
-                                                                    "20, 12, 18, 12, 8, 40 N, less as the hand opens"}));
+  EXPECT_EQ(row_of(parts[0], "strength"), (std::vector<std::string>{"40, 24, 36, 24, 16, 80 N at the best opening",
+                                                                    "20, 12, 18, 12, 8, 40 N at the best opening"}));
   SweptScene strong(with_strength()), weak(with_strength(0.5));
   for (std::size_t v = 0; v < 2; ++v) {
     const ComparePart& part = parts[v + 1];
