@@ -18,5 +18,5 @@ int main() {
                 degrees(grip.roll));
   }
   // 3 heights x 3 obliquities x 4 rolls; the two azimuths are the same for a body of revolution
-  return plan.grips() == 36 && plan.stored_grips() == 72 && plan.grip(0, 1).height == 45e-3 ? 0 : 1;
+  return plan.grips() == 36 && plan.stored_grips() == 72 && plan.grip(0, 1).height == 55e-3 ? 0 : 1;
 }

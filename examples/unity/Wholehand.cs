@@ -114,6 +114,8 @@ public unsafe struct GripResult {
   public fixed double Separation[Native.Joints];
   public double PhalanxDepth, PalmDepth, Score;
   public fixed double ScoreTerms[6];
+  public double WristShare, WristFlexion, WristDeviation, WristPronation;
+  public int IsBeyondWrist;
   public static GripResult Create() { return new GripResult { Size = (UIntPtr)sizeof(GripResult) }; }
   // Of the hand at rest on the glass, vessel frame.
   public Point PosedJoint(int joint) { fixed (double* all = Posed) return Native.PointOf(all, joint); }

@@ -181,7 +181,7 @@ TEST(Wrist, AnglesBelongToAnArmThatReachesTheHand) {
       bool leans = false;
       const int azimuths = arm_azimuths(scene, scene.vessels[0]);
       for (int k = 0; k < azimuths; ++k) {
-        const double turn = 2 * PI * k / azimuths;
+        const double turn = 2 * PI * k / azimuths - (azimuths > 1 ? grip.azimuth : 0);
         const core_f64::Vec3 shoulder(std::cos(turn) * arm.shoulder[0] - std::sin(turn) * arm.shoulder[2], arm.shoulder[1],
                                       std::sin(turn) * arm.shoulder[0] + std::cos(turn) * arm.shoulder[2]);
         const double reach = glm::length(wrist - shoulder);

@@ -236,7 +236,7 @@ TEST(ParityShortcuts, TheArmLeftOutChangesNothingInTheRest) {
     EXPECT_EQ(all.uint(FIELD_STATUS, i) & STATUS_PLAUSIBLE, 0u);
     EXPECT_EQ(all.real(all.fields.plane[FIELD_SCORE], i), 0);
   }
-  EXPECT_GT(beyond, 20u);
+  EXPECT_GT(beyond, 10u);
   EXPECT_LT(beyond, grips.size() - 20);
 }
 

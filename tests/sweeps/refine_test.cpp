@@ -220,6 +220,7 @@ TEST(Refine, ASweepSaysBothScoresAndTheResultGivesTheGripsBack) {
     options.output = folder / "a.nc";
     options.on = "core";
     options.refine = refine;
+    options.list.is_wide = true;
     testing::internal::CaptureStdout();
     EXPECT_EQ(run_sweep(scene, options), ExitCode::done);
     const std::string out = testing::internal::GetCapturedStdout();

@@ -2,6 +2,7 @@
 // Trials of grips: what is asked and what is answered.
 // sanitizers: none
 #include "trials/mujoco_engine.h"
+#include "core/hand_size.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -75,9 +76,17 @@ const Grasped SPHERE{1, {0.082, 0, 0.2617993878, -0.5934119457, 0, 1}, 0.75},
     RIM{0, {0.100047619, 0, -0.3490658504, -1.291543646, 0, 1}, 0.25},
     CORNER{2, {0.1103611111, 0, 0.1745329252, -1.431169987, 0, 1}, 1};
 
+// With the hand and the strengths of those trials.
+Scene former_scene() {
+  Scene scene = read_scene_file(WHOLEHAND_SOURCE_DIR "/scene/examples/three_beakers.toml");
+  scene.hand = paper_hand();
+  scene.strength->by_opening = false;
+  return scene;
+}
+
 class MujocoEngine : public testing::Test {
  protected:
-  Scene scene_ = read_scene_file(WHOLEHAND_SOURCE_DIR "/scene/examples/three_beakers.toml");
+  Scene scene_ = former_scene();
   std::unique_ptr<Evaluator> evaluator_ = make_core_evaluator(scene_);
 
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
