@@ -207,7 +207,7 @@ def evaluate(
     >>> found["reason"]
     array([0, 0, 3], dtype=int8)
     >>> found["closure"].round(3)
-    array([0.263, 0.263,   nan])
+    array([0.241, 0.241,   nan])
     >>> found["joints"].shape
     (3, 24, 3)
     """

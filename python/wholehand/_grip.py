@@ -334,7 +334,7 @@ def grip(
     >>> import wholehand as wh
     >>> g = wh.grip("three_beakers", "beaker1", height_mm=70, roll_deg=-40)
     >>> g
-    <Grip of beaker1 at 70 mm: score 0.893>
+    <Grip of beaker1 at 70 mm: score 0.867>
     >>> g["fingers_used"], g.joints.shape
     (['thumb', 'index', 'middle', 'ring'], (24, 3))
     >>> g.states.torque.dims, g.states.torque.attrs["units"]

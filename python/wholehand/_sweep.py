@@ -109,7 +109,7 @@ def sweep(
     >>> data.score.dims
     ('vessel', 'azimuth', 'obliquity', 'roll', 'offset', 'hand_scale', 'height')
     >>> data.height.attrs["units"], float(data.score.max().round(4))
-    ('m', 0.943)
+    ('m', 0.9305)
     """
     import xarray as xr
 

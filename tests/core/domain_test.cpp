@@ -117,7 +117,7 @@ Cost cost_of(const Scene& scene, double scale = 1) {
     const std::uint32_t both = a.uint(FIELD_STATUS, i) | b.uint(FIELD_STATUS, i);
     if ((both & STATUS_GRAZING) != 0) continue;
     if (a.uint(FIELD_STATUS, i) != b.uint(FIELD_STATUS, i) || a.uint(FIELD_TOUCH_MASK, i) != b.uint(FIELD_TOUCH_MASK, i)) {
-      ++flips;
+      flips += (both & STATUS_CONTACT_UNDECIDED) == 0 ? 1 : 0;  // else the grip says that rounding decides it
       continue;
     }
     if ((both & STATUS_REASON_MASK) != REASON_NONE) continue;

@@ -31,6 +31,7 @@ SCENE = """
 name = "one_beaker"
 
 [hand]
+person = "paper"              # the simulated user then takes the beaker with a roll
 handedness = "right"
 contact_tolerance_mm = 0.004  # the least: fingertips of a session hold where a sweep's do
 

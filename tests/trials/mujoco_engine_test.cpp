@@ -77,7 +77,7 @@ const Grasped SPHERE{1, {0.082, 0, 0.2617993878, -0.5934119457, 0, 1}, 0.75},
     CORNER{2, {0.1103611111, 0, 0.1745329252, -1.431169987, 0, 1}, 1};
 
 // With the hand and the strengths of those trials.
-Scene former_scene() {
+Scene tried_scene() {
   Scene scene = read_scene_file(WHOLEHAND_SOURCE_DIR "/scene/examples/three_beakers.toml");
   scene.hand = paper_hand();
   scene.strength->by_opening = false;
@@ -86,7 +86,7 @@ Scene former_scene() {
 
 class MujocoEngine : public testing::Test {
  protected:
-  Scene scene_ = former_scene();
+  Scene scene_ = tried_scene();
   std::unique_ptr<Evaluator> evaluator_ = make_core_evaluator(scene_);
 
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
