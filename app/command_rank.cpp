@@ -89,11 +89,10 @@ void check_one_rule(const RankedResult& first, const RankedResult& other, const 
   is_shared[RULE_WEIGHTS] = read_weights(weights, first.scene) == read_weights(weights, other.scene);
   for (std::size_t k = 0; k < RULE_COUNT; ++k) {
     if (is_shared[k]) continue;
-    throw usage_error(
-        fmt::format("{}: {} '{}', but {} in {}; allowed: results of one hand, strength, arm, weights, gate and robust settings{}",
-                    other.result.path(), rules[k].name, rules[k].text,
-                    rules[k].text == wanted[k].text ? "other details" : "'" + wanted[k].text + "'", first.result.path(),
-                    k == RULE_WEIGHTS ? "; --weights sets those that it names" : ""));
+    throw usage_error(fmt::format("{}: {} '{}', but {} in {}; allowed: results of one {}{}", other.result.path(), rules[k].name,
+                                  rules[k].text, rules[k].text == wanted[k].text ? "other details" : "'" + wanted[k].text + "'",
+                                  first.result.path(), rule_names(),
+                                  k == RULE_WEIGHTS ? "; --weights sets those that it names" : ""));
   }
 }
 

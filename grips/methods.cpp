@@ -196,13 +196,14 @@ GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) 
   const BackendInfo info = backend->info();
   const std::string device = info.device + (info.backend == "vulkan" && info.is_cpu ? ", a CPU driver" : "") +
                              (info.precision == Precision::single ? ", float" : ", double");
-  return {device, [scene, open, backend](std::size_t vessel, const GripInput& grip, const StateAxes& axes) {
+  const std::shared_ptr<const Evaluator> angles = scene.arm ? make_core_evaluator(scene) : nullptr;
+  return {device, [scene, open, backend, angles](std::size_t vessel, const GripInput& grip, const StateAxes& axes) {
             GripFindings answer;
             GripPlanes planes = run_one(*backend, vessel, grip);
             answer.result = decode_grip(planes.chunk, planes.fields, 0);
-            if (scene.arm) {  // a device keeps the share alone
+            if (angles) {  // a device keeps the share alone
               GripResult on_core;
-              make_core_evaluator(scene)->grip(vessel, grip, on_core);
+              angles->grip(vessel, grip, on_core);
               answer.result.wrist_angles = on_core.wrist_angles;
             }
             answer.is_core_double = false;

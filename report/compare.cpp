@@ -236,8 +236,9 @@ bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   add("version", from_a.version == from_b.version, from_a.version, from_b.version, false);
   if (!rules.empty()) part.sentences.push_back(fmt::format("Scores are not of one rule: other {}.", joined(rules, ", other ")));
   if (table.rows.empty()) {
-    part.sentences.emplace_back(
-        "Hand, strength, arm, force, states, weights, gate, robust settings, device, precision and version are the same.");
+    std::string names = rule_names();
+    names[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(names[0])));
+    part.sentences.push_back(names + ", device, precision and version are the same.");
   } else {
     part.tables.push_back(std::move(table));
   }

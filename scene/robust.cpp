@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array SPREADS{"height_mm", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "friction", "hand_scale"};
 
-// Of a person who aims at a grip that is shown; docs/people.md has the reasons.
+// The scatter of a person who aims at a grip that is shown; docs/people.md has the reasons.
 RobustData aimed_grasp() {
   RobustData data;
   data.height = data.offset = 3e-3;
@@ -25,8 +25,8 @@ void read_robust(const SceneTable& root, std::optional<RobustData>& robust) {
   const auto table = root.table(
       "robust", {"height_mm", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "friction", "hand_scale", "count", "seed"});
   if (!table) return;
-  if (std::none_of(SPREADS.begin(), SPREADS.end(), [&](const char* key) { return table->has(key); })) robust = aimed_grasp();
-  RobustData& data = robust ? *robust : robust.emplace();
+  const bool names_spread = std::any_of(SPREADS.begin(), SPREADS.end(), [&](const char* key) { return table->has(key); });
+  RobustData& data = robust.emplace(names_spread ? RobustData{} : aimed_grasp());
   table->read("height_mm", ranges::LENGTH_DEVIATION, data.height);
   table->read("azimuth_deg", ranges::ANGLE_DEVIATION, data.azimuth);
   table->read("obliquity_deg", ranges::ANGLE_DEVIATION, data.obliquity);

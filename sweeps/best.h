@@ -67,8 +67,9 @@ std::vector<int> best_fields(const Scene& scene);
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
                                     const std::vector<Candidate>& candidates);
 
-// With gap and grip set: sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of
-// each. With efforts it sets these too, and the hold force follows from that of the tips: FIELD_LARGEST_HOLD is not asked for then.
+// Sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of each.
+// With efforts it sets these too, and the hold force follows from the effort of the tips at the grip's gap and hand scale, which are set:
+// it does not read FIELD_LARGEST_HOLD then.
 // `last_tilts` are those of the vessel (core/counted_tilts.h).
 void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& last_tilts,
                const std::function<double(int field, int fill)>& value);

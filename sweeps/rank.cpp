@@ -26,6 +26,9 @@
 namespace wholehand {
 namespace {
 
+constexpr const char* NEEDS_EFFORTS =
+    "needs efforts, which the scene of this file does not have ([tilts], and [strength] without efforts = false)";
+
 constexpr std::size_t GRIPS_AT_ONCE = 1 << 16;  // grips read at once
 constexpr double LARGEST_WEIGHT = 1000;
 
@@ -434,10 +437,7 @@ RankBy read_rank_by(const std::string& text, const Scene& scene) {
     throw usage_error(fmt::format("--rank-by robust needs [robust], which the scene of this file does not have; allowed: score{}",
                                   has_effort(scene) ? ", worst_effort or push" : ""));
   if (needs_effort && !has_effort(scene))
-    throw usage_error(
-        fmt::format("--rank-by {} needs efforts, which the scene of this file does not have ([tilts], and [strength] without "
-                    "efforts = false); allowed: score{}",
-                    text, scene.robust ? " or robust" : ""));
+    throw usage_error(fmt::format("--rank-by {} {}; allowed: score{}", text, NEEDS_EFFORTS, scene.robust ? " or robust" : ""));
   return text == "robust" ? RankBy::robust : text == "push" ? RankBy::push : RankBy::worst_effort;
 }
 
@@ -469,9 +469,7 @@ std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core) {
   needed(result, has_effort(scene) ? std::vector<std::string>{"plausible", "not_held"} : std::vector<std::string>{"plausible"});
-  if (request.least_bad && !has_effort(scene))
-    throw usage_error(
-        "--least-bad: needs efforts, which the scene of this file does not have ([tilts], and [strength] without efforts = false)");
+  if (request.least_bad && !has_effort(scene)) throw usage_error(fmt::format("--least-bad: {}", NEEDS_EFFORTS));
   if (request.least_bad) needed(result, {"worst_effort"});
   Scores scores(result, scene, request.weights);
   RankKeys keys(result, scores, request.by);

@@ -100,6 +100,12 @@ std::array<Rule, RULE_COUNT> rules_of(const Scene& scene) {
            {"robust settings", robust_text(scene)}}};
 }
 
+std::string rule_names() {
+  std::vector<std::string> names;
+  for (const Rule& rule : rules_of(Scene())) names.emplace_back(rule.name);
+  return joined(names, ", ");
+}
+
 std::array<bool, RULE_COUNT> shared_rules(const Scene& a, const Scene& b) {
   return {build_of(a) == build_of(b) && a.hand.scale == b.hand.scale && a.hand.handedness == b.hand.handedness,
           a.strength == b.strength,

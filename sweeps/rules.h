@@ -30,6 +30,9 @@ enum RulePlace : std::size_t {
 // Those of a scene by RulePlace, in words: a result has them in its attribute `rules`.
 std::array<Rule, RULE_COUNT> rules_of(const Scene& scene);
 
+// Their names, with commas between.
+std::string rule_names();
+
 // Which of them two scenes share, whether the words tell or not.
 std::array<bool, RULE_COUNT> shared_rules(const Scene& a, const Scene& b);
 
