@@ -480,9 +480,7 @@ TEST(Body, ALeftHandIsAsDeepAsTheRight) {
   const BodyScene left(mirrored_scene, 3);
   int feasible = 0;
   for (const GripInput& grip : sample_grips(beaker3(), 40, 3)) {
-    GripInput mirrored = grip;
-    mirrored.azimuth = PI - grip.azimuth;
-    mirrored.offset = -grip.offset;
+    const GripInput mirrored = mirrored_grip(grip);
     GripResult of_right, of_left;
     right.core->grip(0, grip, of_right);
     left.core->grip(0, mirrored, of_left);

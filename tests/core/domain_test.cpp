@@ -2,12 +2,14 @@
 // Where float is enough: the limits are named, and at them it is.
 // sanitizers: none
 #include "core/domain.h"
+#include "core/hand_size.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/hand_size.h"
 #include "evidence/compare.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
@@ -101,6 +103,7 @@ double quantile(std::vector<double> values, double share) {
 
 struct Cost {
   double separation = 0, joint = 0, force = 0, flips = 0;  // m, m, N, share of the grips
+  std::size_t unflagged = 0;                               // flips of grips that no flag calls undecided
 };
 
 // What float costs 3,000 grips, on average of one of `scale` times the scene's hand.
@@ -112,12 +115,13 @@ Cost cost_of(const Scene& scene, double scale = 1) {
   const GatheredPlanes a = gather(*make_core_float_evaluator(scene), fields, 0, grips),
                        b = gather(*make_core_evaluator(scene), fields, 0, grips);
   std::vector<double> separations, joints, forces;
-  std::size_t flips = 0;
+  std::size_t flips = 0, unflagged = 0;
   for (std::size_t i = 0; i < grips.size(); ++i) {
     const std::uint32_t both = a.uint(FIELD_STATUS, i) | b.uint(FIELD_STATUS, i);
     if ((both & STATUS_GRAZING) != 0) continue;
     if (a.uint(FIELD_STATUS, i) != b.uint(FIELD_STATUS, i) || a.uint(FIELD_TOUCH_MASK, i) != b.uint(FIELD_TOUCH_MASK, i)) {
-      flips += (both & STATUS_CONTACT_UNDECIDED) == 0 ? 1 : 0;  // else the grip says that rounding decides it
+      ++flips;
+      unflagged += (both & STATUS_CONTACT_UNDECIDED) == 0 ? 1 : 0;
       continue;
     }
     if ((both & STATUS_REASON_MASK) != REASON_NONE) continue;
@@ -135,14 +139,14 @@ Cost cost_of(const Scene& scene, double scale = 1) {
   }
   EXPECT_GT(separations.size(), 2000u);
   return {quantile(separations, 0.999), quantile(joints, 0.99), quantile(forces, 0.999),
-          static_cast<double>(flips) / static_cast<double>(grips.size())};
+          static_cast<double>(flips) / static_cast<double>(grips.size()), unflagged};
 }
 
-void expect_within(const Cost& cost, const char* what, bool forces = true) {
+void expect_within(const Cost& cost, const char* what, bool forces = true, double most_flips = 0.0015) {
   EXPECT_LE(cost.separation, FLOAT_LENGTH) << what;
   EXPECT_LE(cost.joint, FLOAT_LENGTH) << what;
   EXPECT_TRUE(!forces || cost.force <= FLOAT_FORCE) << what;
-  EXPECT_LE(cost.flips, 0.0015) << what;  // 0 to 3 of 3,000
+  EXPECT_LE(cost.flips, most_flips) << what;  // 0 to 3 of 3,000
 }
 
 // A glass of 0.1 kg is 0.98 N.
@@ -177,10 +181,16 @@ TEST(Domain, StrengthsAndTorsionsOfEffortsHaveLimits) {
 }
 
 TEST(Domain, AtItsLimitsFloatIsEnough) {
-  HandData small, large;
-  small.scale = SMALLEST_HAND / 0.85;  // the smallest of the grips' hands
-  small.contact_tolerance *= small.scale;
-  expect_within(cost_of(tilted({scaled(beaker1(), small.scale)}, small)), "smallest hand");
+  HandData small, thin = paper_hand(), large;
+  for (HandData* hand : {&small, &thin}) {
+    hand->scale = SMALLEST_HAND / 0.85;  // the smallest of the grips' hands
+    hand->contact_tolerance *= hand->scale;
+  }
+  expect_within(cost_of(tilted({scaled(beaker1(), thin.scale)}, thin)), "smallest hand with thin fingers");
+  // thicker fingers are near the wall in more grips, and a flag names each that rounding decides
+  const Cost thick = cost_of(tilted({scaled(beaker1(), small.scale)}, small));
+  expect_within(thick, "smallest hand", true, 1);
+  EXPECT_EQ(thick.unflagged, 0u);
   large.scale = 20;
   expect_within(cost_of(tilted({cylinder("tower", 8000, 10000, 50)}, large), LARGEST_HAND / 20), "largest hand", false);
   expect_within(cost_of(tilted({barrel(LARGEST_COORDINATE)})), "largest coordinate");

@@ -254,14 +254,6 @@ TEST(Force, PourTowardsLeansTheLiquidTheOtherWay) {
 
 // ---- left hands ----
 
-// The same grip in the scene mirrored in x: the line's direction loses its sign in x, and what lies to one side of it is on the
-// other.
-GripInput mirrored_grip(GripInput grip) {
-  grip.azimuth = PI - grip.azimuth;
-  grip.offset = -grip.offset;
-  return grip;
-}
-
 Triple mirrored_point(const Triple& point) { return {-point[0], point[1], point[2]}; }
 
 void expect_mirrored(const Triple& left, const Triple& right, const char* what) {

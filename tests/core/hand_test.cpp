@@ -285,12 +285,9 @@ TEST(Hand, LeftHandIsTheRightHandInTheMirroredScene) {
   const auto left = make_core_evaluator(scene_of({vessel}, Pose::articulated, left_hand()));
   int feasible = 0;
   for (const GripInput& grip : sample_grips(vessel, 40, 11)) {
-    GripInput mirrored_grip = grip;
-    mirrored_grip.azimuth = PI - grip.azimuth;
-    mirrored_grip.offset = -grip.offset;
     GripResult ours, theirs;
     left->grip(0, grip, ours);
-    right->grip(0, mirrored_grip, theirs);
+    right->grip(0, mirrored_grip(grip), theirs);
     ASSERT_EQ(ours.reason, theirs.reason);
     if (ours.reason != Reason::none) continue;
     ++feasible;

@@ -160,9 +160,7 @@ TEST(OnTable, ALeftHandReachesAsLowAsTheRight) {
   left.hand.handedness = Handedness::left;
   int feasible = 0;
   for (const GripInput& grip : sample_grips(beaker3(), 40, 3)) {
-    GripInput mirrored = grip;
-    mirrored.azimuth = PI - grip.azimuth;
-    mirrored.offset = -grip.offset;
+    const GripInput mirrored = mirrored_grip(grip);
     const GripResult of_right = result_on_a_table(right, grip), of_left = result_on_a_table(left, mirrored);
     ASSERT_EQ(of_left.reason, of_right.reason);
     if (of_right.reason != Reason::none) continue;

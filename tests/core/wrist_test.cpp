@@ -213,9 +213,7 @@ TEST(Wrist, ALeftHandTurnsAsFarAsTheRight) {
     left.vessels[0].center_of_mass[0] = -left.vessels[0].center_of_mass[0];
     int feasible = 0;
     for (const GripInput& grip : sample_grips(vessel, 40, 3)) {
-      GripInput mirrored = grip;
-      mirrored.azimuth = PI - grip.azimuth;
-      mirrored.offset = -grip.offset;
+      const GripInput mirrored = mirrored_grip(grip);
       GripResult of_right, of_left;
       make_core_evaluator(right)->grip(0, grip, of_right);
       make_core_evaluator(left)->grip(0, mirrored, of_left);

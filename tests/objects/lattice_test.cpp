@@ -262,7 +262,7 @@ TEST(MeshLattice, TellsHowFarItIs) {
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
   const MeshDistance distance(mesh);
   LatticeWish wish;
-  wish.tolerance = 2e-3;
+  wish.tolerance = 1e-3;  // many rows, of which this thread takes some beside two others
   const auto here = std::this_thread::get_id();
   for (const int threads : {1, 3}) {
     wish.threads = threads;
@@ -271,8 +271,7 @@ TEST(MeshLattice, TellsHowFarItIs) {
       EXPECT_EQ(std::this_thread::get_id(), here);
       shares.push_back(share);
     });
-    // beside others this thread may come to no row of its own
-    ASSERT_GT(shares.size(), threads == 1 ? 3u : 1u);
+    ASSERT_GT(shares.size(), 3u);
     EXPECT_EQ(shares.front(), 0);
     EXPECT_EQ(shares.back(), 1);
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));

@@ -204,9 +204,7 @@ TEST_F(MeshVessel, ALeftHandHoldsTheMirrorImage) {
   EXPECT_GT(compared, 200);
   int feasible = 0;
   for (const GripInput& grip : side_grips(0.03, 0.09, 300)) {
-    GripInput other = grip;
-    other.azimuth = PI - grip.azimuth;
-    other.offset = -grip.offset;
+    const GripInput other = mirrored_grip(grip);
     GripResult x, y;
     a->grip(0, grip, x);
     b->grip(0, other, y);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,8 @@
 #include "core/error.h"
 #include "report/html.h"
 #include "report/scene.h"
+#include "report/source.h"
+#include "sweeps/rank.h"
 #include "sweeps/variables.h"
 #include "tests/support/environment.h"
 #include "tests/support/files.h"
@@ -44,6 +47,26 @@ TEST(ReportPage, TellsThatTheBestIsAtTheEndOfAnAxis) {
   EXPECT_TRUE(has(report_page(*swept.result, swept.scene, ""), line));
   const SweptScene still(edited(one_height, "[-30, 0]", "0"));
   EXPECT_FALSE(has(report_page(*still.result, still.scene, ""), "on the edge of"));
+}
+
+// A list need not be in the order of the scores: its first grip is the one of which the page tells.
+TEST(ReportPage, ShowsTheForcesOfTheFirstGripOfTheList) {
+  const SweptScene swept(edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"));
+  const std::string list = swept.folder / "firm.csv";
+  ASSERT_EQ(run("PROGRAM rank " + swept.path + " --rank-by push -o " + list + " >/dev/null").code, 0);
+  SweepResult result(swept.path);
+  const std::string page = report_page(result, swept.scene, "", list);
+  RankRequest request;
+  request.best = 5;
+  request.by = RankBy::push;
+  const Ranking ranking = rank_grips(result, swept.scene, *swept.plan, request, [&] { return make_core_evaluator(swept.scene); });
+  int reordered = 0;
+  for (std::size_t v = 0; v < 2; ++v) {
+    const std::vector<BestGrip>& listed = ranking.lists[v];
+    reordered += std::any_of(listed.begin(), listed.end(), [&](const BestGrip& grip) { return grip.score > listed[0].score; });
+    EXPECT_TRUE(has(page, "The forces of the best grip: " + grip_text(*swept.plan, listed.at(0).grip) + ".")) << v;
+  }
+  EXPECT_GT(reordered, 0) << "else the order of the scores would say the same";
 }
 
 TEST(ReportPage, TellsEachAxisAsTheSceneDoes) {

@@ -239,6 +239,12 @@ core_f64::Grip ready_grip(const GripInput& grip) {
 
 double Random::uniform(double low, double high) { return low + (high - low) * unit_interval(split_mix(state_)); }
 
+GripInput mirrored_grip(GripInput grip) {
+  grip.azimuth = PI - grip.azimuth;
+  grip.offset = -grip.offset;
+  return grip;
+}
+
 std::vector<GripInput> sample_grips(const VesselData& vessel, int count, std::uint64_t seed) {
   Random random(seed);
   const double radius = largest_radius(vessel);

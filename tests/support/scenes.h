@@ -75,6 +75,9 @@ class Random {
 // Grips spread over heights 5 to 95 %, all azimuths, obliquity +-25 and roll -100 to 40 degrees, offset +-40 % of the radius.
 std::vector<GripInput> sample_grips(const VesselData& vessel, int count, std::uint64_t seed);
 
+// The same grip in the scene mirrored in x: the line's direction loses its sign in x, and what lies to one side of it is on the other.
+GripInput mirrored_grip(GripInput grip);
+
 // ---- the hand by rotation matrices, in long double: R p, with p0 = base and p_{k+1} = p_k + R (0, 0, -L) ----
 
 using Long3 = std::array<long double, 3>;

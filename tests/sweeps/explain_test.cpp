@@ -134,28 +134,27 @@ TEST(Explain, SaysWhatSpheresBetweenJointsCostAndLeaveOpen) {
       << explain(scene, "core").text;
 }
 
+// A part that the scene has costs one plane, on the core a double, and is not among what is left out.
+void expect_cost(const Scene& scene, const std::string& part, const std::string& lacked) {
+  const Explained explained = explain(scene, "core");
+  EXPECT_FALSE(explained.find(lacked)) << explained.text;
+  EXPECT_TRUE(std::regex_search(explained.text, std::regex("not left out: " + part +
+                                                           ", which costs -?[0-9.]+ us and 8 B per grip( \\(within the noise of "
+                                                           "these runs\\))?\n")))
+      << explained.text;
+}
+
 TEST(Explain, SaysWhatATableCosts) {
   Scene scene = three_beakers();
   scene.table.emplace();
   scene.output.also = {"table_depth"};
-  const Explained explained = explain(scene, "core");
-  EXPECT_FALSE(explained.find("above a table")) << explained.text;
-  // on the core planes are doubles
-  EXPECT_TRUE(std::regex_search(
-      explained.text,
-      std::regex("not left out: the table, which costs -?[0-9.]+ us and 8 B per grip( \\(within the noise of these runs\\))?\n")))
-      << explained.text;
+  expect_cost(scene, "the table", "above a table");
 }
 
 TEST(Explain, SaysWhatAnArmCosts) {
   Scene scene = three_beakers();
   scene.arm.emplace();
-  const Explained explained = explain(scene, "core");
-  EXPECT_FALSE(explained.find("what the wrist has to do")) << explained.text;
-  EXPECT_TRUE(std::regex_search(
-      explained.text,
-      std::regex("not left out: the arm, which costs -?[0-9.]+ us and 8 B per grip( \\(within the noise of these runs\\))?\n")))
-      << explained.text;
+  expect_cost(scene, "the arm", "what the wrist has to do");
 }
 
 TEST(Explain, SaysWhatEffortsCost) {
