@@ -19,15 +19,14 @@ namespace wholehand {
 namespace {
 
 TEST_F(MeshVessel, LongWorkIsSaidBeforeWithItsTime) {
-  seconds_a_look_ = 1;
-  const PreparedLattice lattice = loaded({of_file("ball", icosphere(0.03, 2), 3e-3)}).vessels[0].mesh->body->lattice;
+  seconds_a_look_ = 1000;  // over LONG_WORK for all rows, however many threads share them
+  loaded({of_file("ball", icosphere(0.03, 2), 3e-3)});
   const std::string said = said_;
   const std::size_t before = said.find("its lattice of 3 mm has "), after = said.find("lattice of 3 mm, ");
   ASSERT_NE(before, std::string::npos) << said;
   EXPECT_LT(before, after) << said;
   EXPECT_NE(said.find("samples, which take about "), std::string::npos) << said;
   EXPECT_NE(said.find("a larger grid_mm takes less"), std::string::npos) << said;
-  EXPECT_GT(lattice.ny * lattice.nz, 12 * 64) << "one second for a row a thread is over 10 s of all";
   loaded({of_file("ball", icosphere(0.03, 2), 3e-3)});
   EXPECT_EQ(said_.find("which take about"), std::string::npos) << "it is in the cache";
   seconds_a_look_ = 1e-9;

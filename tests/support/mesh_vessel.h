@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "objects/vessel.h"
+#include "tests/support/files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/refusal.h"
 #include "tests/support/whole_parity.h"
@@ -17,12 +18,6 @@ namespace wholehand {
 
 class MeshVessel : public testing::Test {
  protected:
-  MeshVessel()
-      : folder_(std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~MeshVessel() override { std::filesystem::remove_all(folder_); }
-
   // A vessel whose file holds that mesh, not yet read.
   VesselData of_file(const std::string& name, const TriangleMesh& mesh, double spacing) {
     std::ofstream((folder_ / (name + ".glb")).string(), std::ios::binary) << glb_text(mesh);
@@ -55,7 +50,8 @@ class MeshVessel : public testing::Test {
     return refusal_line([&] { loaded({vessel}); });
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder temporary_;  // its cache of lattices is no other process's
+  std::filesystem::path folder_{temporary_.path()};
   std::string said_;
 };
 
