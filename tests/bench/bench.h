@@ -41,7 +41,6 @@ class Figures : public benchmark::ConsoleReporter {
 // Each file registers what it measures; `options` must outlive the run.
 void add_grip_benchmarks(const Options& options);
 void print_grip_ratios(const Figures& figures);
-void add_former_benchmarks(const Options& options);
 void add_effort_benchmarks(const Options& options);
 void add_lattice_benchmarks(const Options& options);
 void add_mesh_benchmarks();

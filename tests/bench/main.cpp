@@ -65,7 +65,6 @@ int run(int argc, char** argv) {
   benchmark::Initialize(&count, rest.data());
   if (benchmark::ReportUnrecognizedArguments(count, rest.data())) return 2;
   add_grip_benchmarks(options);
-  add_former_benchmarks(options);
   add_effort_benchmarks(options);
   add_lattice_benchmarks(options);
   add_mesh_benchmarks();

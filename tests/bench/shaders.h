@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Embedded in the benchmarks alone: the shaders of tests/bench/shaders; those of grips and forces as they were, of tests/bench/former; and those of
-// the program that count their useful lanes (shaders/lanes.glsl).
+// Embedded in the benchmarks alone: the shaders of tests/bench/shaders, and those of the program that count their useful lanes
+// (shaders/lanes.glsl).
 #pragma once
 
 #include "host/shaders.h"
@@ -8,7 +8,6 @@
 namespace wholehand {
 
 std::span<const EmbeddedShader> bench_shaders();
-std::span<const EmbeddedShader> former_shaders();
 std::span<const EmbeddedShader> lane_shaders();
 
 }  // namespace wholehand
