@@ -15,6 +15,7 @@
 #include "app/validators.h"
 #include "core/printable.h"
 #include "core/text.h"
+#include "core/tolerances.h"
 #include "program/values.h"
 #include "sweeps/best_glb.h"
 #include "sweeps/closing.h"
@@ -154,6 +155,12 @@ std::string ranking_text(const RankedResults& results, const std::vector<JointLi
       not_held += ranking.not_held[place];
       counts += fmt::format("  {}{}\n", results.size() > 1 ? one_line(results[r]->result.path()) + ": " : "",
                             counts_text(ranking, place, !arguments.where.empty()));
+      const RankedResult& one = *results[r];
+      const std::size_t vessel = place / one.plan.hand_scales();
+      const double gate = gate_tolerance(one.scene, one.result.empty_masses()[vessel]);
+      const std::string at_gate = gate_text(ranking.at_gate[place], gate);
+      if (!at_gate.empty()) counts += "  " + at_gate + "\n";
+      view.score_tolerance = score_tolerance(read_weights(arguments.weights, one.scene), gate);
     }
     std::vector<BestGrip> grips;
     view.results.clear();

@@ -784,7 +784,7 @@ class ClusterSweep final : public Sweep {
       request.sink = [&](const PlaneChunk& chunk) {
         const double start = monotonic_now();
         file.write(chunk);
-        count_grips(chunk, backend_->fields(), piece.counts);
+        count_grips(chunk, backend_->fields(), gate(range.vessel), piece.counts);
         if (ranks_here()) {
           eligible.clear();
           add_eligible(chunk, backend_->fields(), eligible);

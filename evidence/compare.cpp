@@ -8,6 +8,8 @@
 
 #include "core/grip_effort.h"
 #include "core/nearest.h"
+#include "core/planes.h"
+#include "core/tolerances.h"
 #include "evidence/load_floors.h"
 
 namespace wholehand {
@@ -20,9 +22,6 @@ constexpr const char* SAFE_TILT = "force beyond safe";  // where one side tells 
 
 const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
                                 FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
-
-// Roundings that one number gathers on its way through a kernel, as a share of the quantity's largest value.
-constexpr double ROUNDINGS = 64;
 
 // Whether an iteration of the grip took all its steps.
 constexpr std::uint32_t ALL_STEPS = STATUS_PROXY_UNSETTLED | 0x1Fu << STATUS_UNSETTLED_SHIFT;
@@ -87,17 +86,6 @@ Scene with_strengths(Scene scene, double factor) {
 // Whether the planes are there, and not only computed where they were.
 bool is_held(const GatheredPlanes& planes, int field) {
   return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
-}
-
-// Where strengths are far apart the core widens a bracket, up to a tenth, until its forces balance.
-double effort_share(const StrengthData& strengths) {
-  constexpr double FAR_APART = 1e3, WIDEST = 0.1;
-  double strongest = 0, weakest = std::numeric_limits<double>::infinity();
-  for (const double strength : strengths.digits) {
-    strongest = std::max(strongest, strength);
-    if (strength > 0) weakest = std::min(weakest, strength);
-  }
-  return strongest > FAR_APART * weakest ? WIDEST : EFFORT_SHARE;
 }
 
 // What the comparison of told tilts looks at.
@@ -465,34 +453,29 @@ double Comparer::rests(int field, std::size_t k) const {
   switch (field) {
     case FIELD_TERMS:
       return k == 2 ? 1 / DEPTH_SCALE : 0;
-    case FIELD_SCORE: {
-      const auto& w = scene_.score;
-      const double whole = scene_.tilts.empty() ? w.fingers + w.contacts + w.depth + w.posture : 1;
-      return whole > 0 ? w.depth / whole / DEPTH_SCALE : 0;
-    }
+    case FIELD_SCORE:
+      return effective_weights(scene_)[2] / DEPTH_SCALE;
     default:
       return field_row(field).rests;
   }
 }
 
-// Of a form that is compared, and of the push. Each side solves an effort to half of EFFORT_TOLERANCE and passes by states that are
-// worse by up to another half: EFFORT_SHARE of e, times the slope 1 / (1 + e)^2 of t = 1 / (1 + e), is EFFORT_SHARE t (1 - t). A push
-// is held beside the weight, by an effort of both together. The least friction ends up to a step above a certified bound, at an effort
-// as near to 1, and goes with the effort at least as its inverse.
-// A hand that squeezes much more than it lifts adds up large forces to a small one. Rounding takes a share of its strength S from what
-// it can carry: 4 ROUNDINGS eps of it move y = 1 / e by that times S over the weight, and t = y / (1 + y) by (1 - t)^2 of this. The
-// friction that is needed moves as much as y. A push ends where the last columns are sqrt(eps) apart.
+// Of a form that is compared, and of the push (core/tolerances.h). A push is held beside the weight, by an effort of both together, and ends
+// where the last columns are sqrt(eps) apart. The least friction ends up to a step above a certified bound, at an effort as near to 1: it
+// goes with the effort at least as its inverse, and what rounding takes moves it as much as 1 / effort.
 double Comparer::effort_floor(int field, std::size_t vessel, double truth) const {
   const bool is_friction = field == FIELD_FRICTION_NEEDED;
   if (std::isnan(truth) || !(is_effort(field) || is_friction || field == FIELD_PUSH)) return 0;
   const VesselConstants& glass = core_.constants(vessel);
-  const auto& digits = scene_.strength->digits;
-  const double strength = *std::max_element(digits.begin(), digits.end()), weight = scene_.gravity * glass.mass;
-  const double lost = weight > 0 ? 4 * ROUNDINGS * allowed_.epsilon * strength / weight : 0;
-  const double of_share = effort_share(*scene_.strength) * truth * (1 - truth);
-  if (is_friction) return (core_f64::FRICTION_STEP + lost) * truth * truth + of_share;
-  if (is_effort(field)) return of_share + lost * (1 - truth) * (1 - truth);
-  return EFFORT_SHARE * (truth + scene_.gravity * glass.largest_mass) + 3 * std::sqrt(allowed_.epsilon) * strength;
+  const StrengthData& strengths = *scene_.strength;
+  const double weight = scene_.gravity * glass.mass;
+  if (is_effort(field)) return effort_tolerance(strengths, weight, allowed_.epsilon, truth);
+  if (is_friction) {
+    return (core_f64::FRICTION_STEP + rounded_reserve(strengths, weight, allowed_.epsilon)) * truth * truth +
+           effort_share(strengths) * truth * (1 - truth);
+  }
+  const double strongest = *std::max_element(strengths.digits.begin(), strengths.digits.end());
+  return EFFORT_SHARE * (truth + scene_.gravity * glass.largest_mass) + 3 * std::sqrt(allowed_.epsilon) * strongest;
 }
 
 // Of a number of which an effort is the search's answer, or a part: the term of holding is the compared form of the worst effort.

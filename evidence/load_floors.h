@@ -12,10 +12,6 @@ namespace wholehand {
 
 struct GatheredPlanes;
 
-// How far two worst efforts may differ, as a share: each side solves to half of the tolerance 1e-3 and passes by states that are worse
-// by up to another half, and in float places of contacts end within 1e-6 m of arms of 5 mm, twice.
-constexpr double EFFORT_SHARE = 2.4e-3;
-
 // For the states and grips of one vessel. The liquid's volume may differ by `volume` m3 between two evaluations and its moments by
 // `volume` times twice the vessel's height H, and a number by the share `rounding` of what it is the sum or product of; density rho,
 // gravity g, total mass M of a state and M_max of the heaviest:

@@ -97,6 +97,7 @@ struct ListView {
   std::size_t rows = 5;  // at most
   bool is_wide = false;  // all columns, however wide the lines get
   RankBy by = RankBy::score;
+  double score_tolerance = 0;             // so near do two scores count as equal (core/tolerances.h)
   std::vector<std::string> results = {};  // of a list of several results, whose each grip is; else empty
 };
 

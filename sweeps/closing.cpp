@@ -25,6 +25,28 @@ std::string short_number(double value) {
   return value >= 100 ? fixed_text(value, 0) : value >= 0.1 ? fmt::format("{:#.3g}", value) : fmt::format("{:.3g}", value);
 }
 
+// Whether a grip of a list is ranked ahead of the next one by less than the tolerance of a score.
+bool is_near(const BestGrip& grip, const BestGrip& next, const ListView& view) {
+  const auto are_near = [&](double a, double b) { return std::abs(a - b) <= view.score_tolerance; };
+  const RobustScore &a = grip.robust, &b = next.robust;
+  if (view.by == RankBy::robust && !(std::isnan(a.low) && std::isnan(b.low)))
+    return a.low == b.low ? are_near(a.mean, b.mean) : are_near(a.low, b.low);
+  return (view.by == RankBy::score || view.by == RankBy::robust) && are_near(grip.score, next.score);
+}
+
+// "rank 4 is within 0.00028 of the next one", "2 ranks are within 0.00028 of the next one, the first is rank 4".
+std::string near_text(const std::vector<BestGrip>& best, const ListView& view) {
+  std::size_t near = 0, first = 0;
+  for (std::size_t k = 0; k + 1 < best.size() && best[k + 1].score > 0; ++k) {
+    if (!is_near(best[k], best[k + 1], view)) continue;
+    if (near++ == 0) first = best[k].rank;
+  }
+  if (near == 0) return "";
+  const std::string within = fmt::format("within {} of the next one", plain_text(view.score_tolerance, 2));
+  return near == 1 ? fmt::format("rank {} is {}", first, within)
+                   : fmt::format("{} ranks are {}, the first is rank {}", readable_number(near), within, first);
+}
+
 }  // namespace
 
 std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInfo& info) {
@@ -72,6 +94,13 @@ std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best) 
                                         : "; not judged off its place");
 }
 
+std::string gate_text(std::uint64_t at_gate, double gate_tolerance) {
+  if (at_gate == 0) return "";
+  // 1 / (1 + effort) has the slope -1/4 there
+  return fmt::format("{} within {:.2g} % of the gate, where another backend may decide otherwise",
+                     counted(at_gate, "grip is", "grips are"), 400 * gate_tolerance);
+}
+
 std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<BestGrip>& best,
                        const std::string& file, const ListView& view) {
   if (best.empty()) return "";
@@ -79,6 +108,7 @@ std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
   if (best.size() > view.rows)
     text += fmt::format("  .. {} more{}\n", readable_number(best.size() - view.rows),
                         file.empty() ? "; -o FILE writes all of them" : " in " + one_line(file));
+  if (const std::string near = near_text(best, view); !near.empty()) text += "  " + near + "\n";
   if (!view.results.empty()) return text;  // whose ends differ
   std::vector<Candidate> candidates;
   for (const BestGrip& grip : best) candidates.push_back(grip.candidate);

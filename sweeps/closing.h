@@ -31,12 +31,18 @@ std::string vessel_lines(const Scene& scene, const std::vector<VesselFacts>& fac
 // its deviations". A list without grips lacks them for want of grips that may be listed.
 std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best);
 
-// What is printed of a list of a vessel's best grips: the table of the first, how many more are in `file` ("" where there is none), and whether the best
-// lies at an end of an axis, which a list of several results does not say. Empty for an empty list.
+// How many grips of a vessel are so near to the gate that another backend may decide otherwise: "3 grips are within 0.49 % of the gate, where another
+// backend may decide otherwise"; empty where none is.
+std::string gate_text(std::uint64_t at_gate, double gate_tolerance);
+
+// What is printed of a list of a vessel's best grips: the table of the first, how many more are in `file` ("" where there is none), how many ranks are
+// within view.score_tolerance of the next one, and whether the best lies at an end of an axis, which a list of several results does not say. Empty for an
+// empty list.
 std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<BestGrip>& best,
                        const std::string& file, const ListView& view);
 
-// A vessel's verdict, its counts and its list; of several hand scales a verdict and a list of each. `lists`: of all vessels, as of GripLists.
+// A vessel's verdict, its counts (a line or more) and its list; of several hand scales a verdict and a list of each. `lists`: of all vessels, as of
+// GripLists.
 std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::string& counts,
                        const std::vector<std::vector<BestGrip>>& lists, const std::string& file, const ListView& view);
 

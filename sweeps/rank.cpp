@@ -19,6 +19,7 @@
 #include "core/nearest_name.h"
 #include "core/planes.h"
 #include "core/text.h"
+#include "core/tolerances.h"
 #include "shaders/layout.h"
 #include "sweeps/list_chooser.h"
 #include "sweeps/robust.h"
@@ -333,17 +334,21 @@ void rank_by_robust(const Scene& scene, const Plan& plan, const std::array<doubl
 // holds, instead of those that hold.
 void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, RankKeys& keys,
                  bool least_bad, const Where* where, ListChooser& chooser, Ranking& ranking, bool is_first_pass) {
-  const Variable &plausible = *result.find("plausible"), *not_held = result.find("not_held");
+  const Variable &plausible = *result.find("plausible"), *not_held = result.find("not_held"),
+                 *effort = has_effort(scene) && is_first_pass ? result.find("worst_effort") : nullptr;
+  const double gate = effort ? gate_tolerance(scene, result.empty_masses()[vessel]) : 0;
   const std::vector<WhereValue> none;
   ConditionValues values(result, scene, plan, where ? where->values() : none);
   const std::size_t scales = plan.hand_scales();
-  std::vector<double> is_plausible(GRIPS_AT_ONCE), fails(GRIPS_AT_ONCE, 0), score(GRIPS_AT_ONCE);
+  std::vector<double> is_plausible(GRIPS_AT_ONCE), fails(GRIPS_AT_ONCE, 0), score(GRIPS_AT_ONCE),
+      efforts(GRIPS_AT_ONCE, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> hands(GRIPS_AT_ONCE);
   std::vector<Candidate> offered;
   for (std::uint64_t first = 0; first < plan.grips(); first += GRIPS_AT_ONCE) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(GRIPS_AT_ONCE, plan.grips() - first));
     result.read(plausible, vessel, 0, first, count, is_plausible.data());
     if (has_effort(scene)) result.read(*not_held, vessel, 0, first, count, fails.data());
+    if (effort) result.read(*effort, vessel, 0, first, count, efforts.data());
     keys.read(vessel, first, count, score.data());
     plan.hand_scales_of(first, count, hands.data());
     values.read(vessel, first, count);
@@ -353,6 +358,7 @@ void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan
       const std::size_t list = vessel * scales + hands[i];
       if (is_first_pass) ++ranking.plausible[list];
       if (is_first_pass && fails[i] == 1) ++ranking.not_held[list];
+      if (is_at_gate(efforts[i], gate)) ++ranking.at_gate[list];
       if (least_bad ? !none_holds(ranking, list) : fails[i] == 1) continue;
       if (where && !where->holds(values.row(i))) continue;
       if (is_first_pass) ++ranking.matching[list];
@@ -477,7 +483,7 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
   const std::unique_ptr<const Where> where = request.where.empty() ? nullptr : std::make_unique<Where>(request.where, names);
   const std::size_t scales = plan.hand_scales(), lists = scene.vessels.size() * scales;
   const std::vector<std::uint64_t> none(lists, 0);
-  Ranking ranking{{}, none, none, none, ""};
+  Ranking ranking{{}, none, none, none, none, ""};
   const bool is_robust = request.by == RankBy::robust;
   const std::shared_ptr<const Evaluator> posing = request.apart > 0 || is_robust ? open_core() : nullptr;
   std::vector<ListProgress> best;

@@ -45,6 +45,7 @@ struct Ranking {
   std::vector<std::uint64_t> matching;       // grips of each list that are eligible and meet the condition,
   std::vector<std::uint64_t> plausible;      // of so many that are feasible and plausible,
   std::vector<std::uint64_t> not_held;       // less these
+  std::vector<std::uint64_t> at_gate;        // of the plausible, as in GripCounts; 0 where the file lacks worst_effort
   std::string note;                          // for the user: what is not from the file; empty: everything is
 };
 

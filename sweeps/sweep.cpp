@@ -10,7 +10,9 @@
 #include <limits>
 #include <utility>
 
+#include "core/planes.h"
 #include "core/printable.h"
+#include "core/tolerances.h"
 #include "sweeps/best.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/closing.h"
@@ -340,7 +342,7 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   request.sink = [&](const PlaneChunk& chunk) {
     const double start = monotonic_now();
     file.write(chunk);
-    count_grips(chunk, backend_->fields(), vessel.counts);
+    count_grips(chunk, backend_->fields(), gate(v), vessel.counts);
     if (ranks_here()) best.offer(chunk, backend_->fields());
     if (!remembered_.empty()) {
       eligible.clear();
@@ -543,9 +545,13 @@ std::string Sweep::unheld(std::size_t v) const {
 std::string Sweep::counts_text(std::size_t v) const {
   const GripCounts& counts = mark_.vessels[v].counts;
   const bool is_known = has_field(FIELD_STATUS);
-  return options_.list.is_wide ? counts_line(counts, is_known, plan().copies())
-                               : short_counts_line(counts, is_known, plan().copies(), has_effort(scene_));
+  const std::string gate_line = gate_text(counts.at_gate, gate(v));
+  return (options_.list.is_wide ? counts_line(counts, is_known, plan().copies())
+                                : short_counts_line(counts, is_known, plan().copies(), has_effort(scene_))) +
+         (gate_line.empty() ? "" : "\n  " + gate_line);
 }
+
+double Sweep::gate(std::size_t v) const { return gate_tolerance(scene_, facts_[v].empty_mass); }
 
 void Sweep::finish(ResultFile& file, BestLists best) {
   describe_best(companions(), *backend_, best);
@@ -570,6 +576,7 @@ void Sweep::finish(ResultFile& file, BestLists best) {
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const std::string& name = scene_.vessels[v].name;
     const std::string failure = unheld(v), counts = counts_text(v);
+    view.score_tolerance = score_tolerance(effective_weights(scene_), gate(v));
     if (is_quiet() && !failure.empty()) note(name + ": " + failure);
     print_text("\n" + (!failure.empty()    ? fmt::format("{}: {}\n  {}\n", name, failure, counts)
                        : best_wanted_ == 0 ? fmt::format("{}: {}\n", name, counts)

@@ -79,6 +79,7 @@ class Sweep {
   const Plan& plan() const { return *plan_; }
   ResultContents contents() const;
   Precision precision() const;
+  double gate(std::size_t vessel) const;  // gate_tolerance (core/tolerances.h)
   std::map<std::string, std::string> identity() const;
   bool is_choosy() const;                       // whether the best grips have to differ
   bool refines() const;                         // whether better grips are looked for near the best ones

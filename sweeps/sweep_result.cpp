@@ -251,6 +251,8 @@ std::vector<double> SweepResult::vessel_heights() const { return of_vessels("ves
 
 std::vector<double> SweepResult::vessel_bases() const { return of_vessels("vessel_base"); }
 
+std::vector<double> SweepResult::empty_masses() const { return of_vessels("empty_mass"); }
+
 std::size_t SweepResult::vessels() const {
   const std::vector<std::size_t>& shape = numbers("vessel_height").shape;
   if (shape.size() != 1 || shape[0] > MOST_VESSELS)

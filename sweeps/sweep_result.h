@@ -91,6 +91,7 @@ class SweepResult {
   // Of all vessels their mouths' height and their lowest points, m; known before `use`.
   std::vector<double> vessel_heights() const;
   std::vector<double> vessel_bases() const;
+  std::vector<double> empty_masses() const;  // of all vessels, kg
 
  private:
   std::size_t vessels() const;

@@ -6,13 +6,14 @@
 #include <algorithm>
 
 #include "core/result.h"
+#include "core/tolerances.h"
 #include "shaders/status.h"
 #include "sweeps/variables.h"
 #include "system/readable.h"
 
 namespace wholehand {
 
-void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& counts) {
+void count_grips(const PlaneChunk& chunk, const FieldSet& fields, double gate, GripCounts& counts) {
   counts.grips += chunk.count;
   if (!is_kept(fields, FIELD_STATUS)) return;
   const auto known = [&](int field, std::size_t i) {
@@ -34,6 +35,7 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& co
     if (is_plausible(status) && is_kept(fields, FIELD_WORST_EFFORT)) {
       const LeastBad one{known(FIELD_WORST_EFFORT, i), known(FIELD_FRICTION_NEEDED, i), chunk.first + i};
       counts.least_bad = std::min(counts.least_bad, one);
+      counts.at_gate += is_at_gate(one.effort, gate);
     }
     counts.antipodal += (status & STATUS_ANTIPODAL) != 0;
     counts.blocked += ((status >> STATUS_BLOCKED_SHIFT) & 0x1F) != 0;

@@ -7,8 +7,8 @@
 
 namespace wholehand {
 
-// Adds the grips of a chunk to the counts. Without a kept FIELD_STATUS only their number.
-void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& counts);
+// Adds the grips of a chunk to the counts. Without a kept FIELD_STATUS only their number. `gate`: gate_tolerance of the vessel.
+void count_grips(const PlaneChunk& chunk, const FieldSet& fields, double gate, GripCounts& counts);
 
 // "5,321 of 9,216 grips feasible (3,000 too wide, 895 misses); of these 310 implausible (200 through the table, 30
 // with fingers in each other, 90 only too deep), 2,180 not held, 4,100 antipodal, 12 with a blocked finger". The parts are there

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the built program says of a canister that nobody can hold, and of one that somebody can.
 // sanitizers: address
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,15 +22,26 @@ namespace {
 class CommandUnheld : public testing::Test {
  protected:
   // A canister with walls of `wall_mm` of steel: 20 mm are 5.5 kg, 1 mm is 0.4 kg.
-  void write_scene(const char* wall_mm) {
+  void write_scene(const char* wall_mm, double strength = 1) {
     std::ofstream(folder / "a.toml") << "[[vessel]]\nname = \"canister\"\nshape = \"cylinder\"\ndiameter_mm = 75\nheight_mm = 180\n"
                                         "wall_mm = "
-                                     << wall_mm
-                                     << "\ndensity_kg_m3 = 7800\n[table]\n[strength]\n[liquid]\nfills = [0, 1]\n[grips]\n"
+                                     << wall_mm << "\ndensity_kg_m3 = 7800\n[table]\n"
+                                     << strengths(strength)
+                                     << "[liquid]\nfills = [0, 1]\n[grips]\n"
                                         "height_fraction = { from = 0.3, to = 0.9, count = 4 }\n"
                                         "roll_deg = { from = -90, to = 0, count = 3 }\n[tilts]\ndeg = [0, 45, 90]\n";
   }
-  Outcome sweep() { return run("PROGRAM sweep " + (folder / "a.toml") + " --on core -o " + result + " 2>&1"); }
+  // The default strengths times a factor.
+  static std::string strengths(double factor) {
+    std::string text = "[strength]\n";
+    for (const auto& [digit, strength] :
+         {std::pair{"thumb", 40.0}, {"index", 25.0}, {"middle", 35.0}, {"ring", 25.0}, {"little", 14.0}, {"palm", 80.0}})
+      text += fmt::format("{}_N = {}\n", digit, factor * strength);
+    return text;
+  }
+  Outcome sweep(const std::string& options = "") {
+    return run("PROGRAM sweep " + (folder / "a.toml") + " --on core -o " + result + options + " 2>&1");
+  }
 
   TemporaryFolder folder;
   std::string result = folder / "a.nc";
@@ -111,6 +123,47 @@ TEST_F(CommandUnheld, WhereSomeHoldTheListSaysByHowMuch) {
   const Outcome own = run("PROGRAM rank " + result + " 2>&1"), least_bad = run("PROGRAM rank " + result + " --least-bad 2>&1");
   EXPECT_EQ(own.output, least_bad.output) << "a list of grips that hold stays as it is";
   expect_error("rank " + result + " --where 'not_held_' ", 2, "the nearest is 'not_held'");
+}
+
+// The line about the gate, or nothing.
+std::string gate_line(const std::string& output) {
+  const std::size_t at = output.find(" of the gate, where another backend may decide otherwise\n");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = output.rfind('\n', at) + 1;
+  return output.substr(begin, at - begin);
+}
+
+TEST_F(CommandUnheld, GripsThatAnotherBackendMayHoldOrNotAreCounted) {
+  // so many plausible grips are within the tolerance of an effort of 1, by the formula of docs/method.md
+  const auto by_hand = [&](double strength, double& half_width) {
+    const double rounded = 256 * 0x1p-23 * 80 * strength / (9.81 * read_values(result, "empty_mass").at(0));
+    half_width = (2.4e-3 + rounded) / 4;
+    std::size_t count = 0;
+    for (const double effort : read_values(result, "worst_effort")) count += std::abs(1 / (1 + effort) - 0.5) <= half_width ? 1 : 0;
+    return count;
+  };
+  write_scene("1");
+  Outcome swept = sweep();
+  ASSERT_EQ(swept.code, 0) << swept.output;
+  double half_width = 0;
+  ASSERT_EQ(by_hand(1, half_width), 0u);
+  EXPECT_EQ(gate_line(swept.output), "") << swept.output;
+  EXPECT_EQ(gate_line(run("PROGRAM rank " + result).output), "");
+
+  double least = 1e9;  // effort: with so much of the strength this grip just holds
+  for (const double effort : read_values(result, "worst_effort"))
+    if (effort < least) least = effort;
+  write_scene("1", least);
+  std::string line;
+  for (const char* threads : {" --threads 1", " --threads 2", " --threads 3"}) {
+    swept = sweep(threads);
+    ASSERT_EQ(swept.code, 0) << swept.output;
+    const std::size_t count = by_hand(least, half_width);
+    ASSERT_GT(count, 0u);
+    line = fmt::format("  {} within {:.2g} %", count == 1 ? "1 grip is" : std::to_string(count) + " grips are", 400 * half_width);
+    EXPECT_EQ(gate_line(swept.output), line) << swept.output;
+  }
+  EXPECT_EQ(gate_line(run("PROGRAM rank " + result + " --best 1").output), line);
 }
 
 TEST_F(CommandUnheld, WithoutStrengthThereIsNoSuchGrip) {

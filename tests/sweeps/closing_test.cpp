@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "tests/support/fake_backend.h"
@@ -76,6 +77,47 @@ TEST(Closing, AListShowsItsFirstGripsAndHowManyMoreThereAre) {
   EXPECT_EQ(count_lines(5, "a.csv"), 5 + edge);
   EXPECT_EQ(count_lines(1, ""), 1 + edge);
   EXPECT_EQ(count_lines(50, ""), 8 + edge) << "no more than there are";
+}
+
+TEST(Closing, GripsNearTheGateAreCountedInWords) {
+  EXPECT_EQ(gate_text(0, 1e-3), "");
+  EXPECT_EQ(gate_text(1, 1e-3), "1 grip is within 0.4 % of the gate, where another backend may decide otherwise");
+  EXPECT_EQ(gate_text(1234, 1.22e-3), "1,234 grips are within 0.49 % of the gate, where another backend may decide otherwise");
+}
+
+TEST(Closing, AListCountsRanksThatAreNearToTheNextOne) {
+  const Scene scene = fake_scene();
+  const Plan plan(scene, false);
+  std::vector<BestGrip> best(4);
+  const auto near_line = [&](const std::vector<std::array<double, 3>>& values, RankBy by) {  // score, low, mean
+    for (std::size_t k = 0; k < best.size(); ++k) {
+      best[k].rank = k + 1;
+      best[k].score = values[k][0];
+      best[k].robust.low = values[k][1];
+      best[k].robust.mean = values[k][2];
+    }
+    ListView view;
+    view.by = by;
+    view.score_tolerance = 2.84e-4;
+    const std::string text = list_lines(scene, plan, 0, best, "", view), start = " within ";
+    const std::size_t at = text.find(start);
+    if (at == std::string::npos) return std::string();
+    const std::size_t begin = text.rfind('\n', at) + 1;
+    return text.substr(begin, text.find('\n', at) - begin);
+  };
+  constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::array<double, 3>> apart{{0.9, 0.8, 0.85}, {0.8, 0.7, 0.84}, {0.7, 0.6, 0.83}, {0.6, 0.5, 0.82}};
+  EXPECT_EQ(near_line(apart, RankBy::score), "");
+  EXPECT_EQ(near_line(apart, RankBy::robust), "");
+  const std::vector<std::array<double, 3>> near{{0.9, 0.8, 0.8}, {0.8, 0.7998, 0.7}, {0.7998, 0, 0.6}, {0.7996, 0, 0.5999}};
+  EXPECT_EQ(near_line(near, RankBy::score), "  2 ranks are within 0.00028 of the next one, the first is rank 2");
+  EXPECT_EQ(near_line(near, RankBy::robust), "  2 ranks are within 0.00028 of the next one, the first is rank 1")
+      << "of equal percentiles the means";
+  EXPECT_EQ(near_line(near, RankBy::push), "");
+  const std::vector<std::array<double, 3>> unjudged{{0.9, 0.8, 0.8}, {0.8999, NONE, NONE}, {0.7, NONE, NONE}, {0.6999, NONE, NONE}};
+  EXPECT_EQ(near_line(unjudged, RankBy::robust), "  rank 3 is within 0.00028 of the next one") << "by their scores";
+  const std::vector<std::array<double, 3>> unheld{{0, NONE, NONE}, {0, NONE, NONE}, {0, NONE, NONE}, {0, NONE, NONE}};
+  EXPECT_EQ(near_line(unheld, RankBy::score), "");
 }
 
 TEST(Closing, TimesAddUp) {

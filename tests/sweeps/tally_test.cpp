@@ -17,7 +17,7 @@ TEST(Tally, CountsByReasonAndAmongTheFeasible) {
       REASON_TOO_WIDE | STATUS_ANTIPODAL,  REASON_MISSES};
   FieldSet fields = make_field_set({FIELD_STATUS}, fake_scene());
   GripCounts counts;
-  count_grips({0, 0, 6, 6, nullptr, nullptr, status.data()}, fields, counts);
+  count_grips({0, 0, 6, 6, nullptr, nullptr, status.data()}, fields, 0, counts);
   EXPECT_EQ(counts.grips, 6u);
   EXPECT_EQ(counts.by_reason[REASON_NONE], 3u);
   EXPECT_EQ(counts.by_reason[REASON_MISSES], 2u);
@@ -42,7 +42,7 @@ TEST(Tally, TellsWhyGripsAreImplausible) {
                                           wrist, STATUS_PLAUSIBLE, table | REASON_MISSES};
   GripCounts counts;
   count_grips({0, 0, status.size(), status.size(), nullptr, nullptr, status.data()}, make_field_set({FIELD_STATUS}, fake_scene()),
-              counts);
+              0, counts);
   EXPECT_EQ(counts.implausible, 9u);
   EXPECT_EQ(counts.through_table, 3u);
   EXPECT_EQ(counts.self_overlap, 2u);
@@ -72,7 +72,7 @@ TEST(Tally, CountsGripsThatDoNotHoldAndKeepsTheNearestToIt) {
     std::copy(frictions.begin(), frictions.end(), reals.begin() + 5 * fields.plane[FIELD_FRICTION_NEEDED]);
     GripCounts counts, before;
     before.least_bad = {NONE, 3, 2};
-    count_grips({0, 10, 5, 5, nullptr, reals.data(), status.data()}, fields, counts);
+    count_grips({0, 10, 5, 5, nullptr, reals.data(), status.data()}, fields, 0, counts);
     EXPECT_EQ(counts.not_held, 4u);
     EXPECT_TRUE(counts.none_holds());
     EXPECT_NE(counts_line(counts, true, 1).find("1 implausible (1 only too deep), 4 not held, 0 antipodal"), std::string::npos);
@@ -87,9 +87,30 @@ TEST(Tally, CountsGripsThatDoNotHoldAndKeepsTheNearestToIt) {
   EXPECT_FALSE(GripCounts().none_holds());
 }
 
+TEST(Tally, CountsPlausibleGripsNearTheGate) {
+  constexpr double NOT_THERE = std::numeric_limits<double>::quiet_NaN(), NONE = std::numeric_limits<double>::infinity();
+  constexpr std::uint32_t ok = STATUS_PLAUSIBLE, fails = STATUS_PLAUSIBLE | STATUS_NOT_HELD;
+  const std::vector<double> efforts{1, 0.997, 0.995, 1.003, 1.005, 1, NOT_THERE, NONE};
+  const std::vector<std::uint32_t> status{ok, ok, ok, fails, fails, 0, ok, fails};
+  Scene scene = fake_scene();
+  scene.strength.emplace();
+  const FieldSet fields = make_field_set({FIELD_STATUS, FIELD_WORST_EFFORT}, scene);
+  const auto at_gate = [&](double gate) {
+    GripCounts counts;
+    count_grips({0, 0, 8, 8, nullptr, efforts.data(), status.data()}, fields, gate, counts);
+    GripCounts both = counts;
+    both += counts;
+    EXPECT_EQ(both.at_gate, 2 * counts.at_gate);
+    return counts.at_gate;
+  };
+  EXPECT_EQ(at_gate(1e-3), 3u) << "an effort changes by four times as much there";
+  EXPECT_EQ(at_gate(1.3e-3), 5u);
+  EXPECT_EQ(at_gate(1e-9), 1u);
+}
+
 TEST(Tally, WithoutStatusOnlyTheNumberIsKnown) {
   GripCounts counts;
-  count_grips({0, 0, 6, 6, nullptr, nullptr, nullptr}, make_field_set({}, fake_scene()), counts);
+  count_grips({0, 0, 6, 6, nullptr, nullptr, nullptr}, make_field_set({}, fake_scene()), 0, counts);
   EXPECT_EQ(counts.grips, 6u);
   EXPECT_EQ(counts.by_reason[0], 0u);
 }

@@ -60,7 +60,7 @@ Nearest nearest_of(const Scene& scene, const Evaluator& core, const Plan& plan) 
   const FieldSet fields = make_field_set({FIELD_STATUS, FIELD_WORST_EFFORT, FIELD_FRICTION_NEEDED}, scene);
   const GatheredPlanes planes = gather(core, fields, 0, grips);
   Nearest found;
-  count_grips({0, 0, grips.size(), grips.size(), nullptr, planes.reals.data(), planes.uints.data()}, fields, found.counts);
+  count_grips({0, 0, grips.size(), grips.size(), nullptr, planes.reals.data(), planes.uints.data()}, fields, 0, found.counts);
   found.grip = found.counts.least_bad;
   // by hand
   double least = std::numeric_limits<double>::infinity();
