@@ -780,7 +780,7 @@ class ClusterSweep final : public Sweep {
       RunRequest request = grips_of(range.vessel, interrupt);
       request.first = first;
       request.last = range.last;
-      request.best = ranks_here() ? 0 : best_wanted_;
+      request.best = ranks_here() ? 0 : candidates();
       request.sink = [&](const PlaneChunk& chunk) {
         const double start = monotonic_now();
         file.write(chunk);

@@ -71,6 +71,12 @@ roll_deg = { from = -90, to = 30 }
 sampling = "sobol"
 count = 3000
 """
+# lists whose candidates may be near to each other: the backend chooses them, more than are listed
+NEAR = POINTS.replace("count = 3000", "count = 1000") + """
+[output]
+apart_mm = 0
+best = 4
+"""
 BARE = VESSELS + """
 [output]
 keep = []
@@ -257,7 +263,7 @@ class Ranks(Job):
     """The same answer, whoever dies, and one job for one file."""
 
     def test_any_number_of_ranks_gives_the_answer_of_one_machine(self):
-        for name, scene in {"grid": SMALL, "points": POINTS, "bare": BARE}.items():
+        for name, scene in {"grid": SMALL, "points": POINTS, "near": NEAR, "bare": BARE}.items():
             path = self.write(name + ".toml", scene)
             alone = self.alone(path, name + ".nc", "--threads", "1")
             words = None
