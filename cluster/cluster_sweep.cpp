@@ -302,7 +302,7 @@ class ClusterSweep final : public Sweep {
     std::map<std::string, std::string> own = identity();
     PacketWriter packet;
     for (const auto& [key, value] : own) packet.put(checksum_text(value.data(), value.size()));
-    for (const std::string& text : {info_.device, info_.driver, team_.node(), own.at("build"), base_name(names_.result)})
+    for (const std::string& text : {info_.device, info_.driver, team_.node(), own.at("code"), base_name(names_.result)})
       packet.put(text);
     std::map<std::string, int> devices{{info_.device, 1}};
     std::set<std::string> drivers{info_.driver};
@@ -313,14 +313,14 @@ class ClusterSweep final : public Sweep {
       std::vector<std::string> checksums;
       for (std::size_t k = 0; k < own.size(); ++k) checksums.push_back(reader.take_text());
       const std::string its_device = reader.take_text(), driver = reader.take_text(), node = reader.take_text(),
-                        build = reader.take_text(), result = reader.take_text();
+                        code = reader.take_text(), result = reader.take_text();
       std::size_t k = 0;
       for (const auto& [key, value] : own) {
         const std::string own_checksum = checksum_text(value.data(), value.size()), its = checksums[k++];
         if (its == own_checksum || key == "device" || key == "driver" || unlike) continue;
-        const bool is_build = key == "build";
+        const bool is_code = key == "code";
         unlike = usage_error(fmt::format("rank {} on {} has another {}: {}, and rank 0 on {} has {}; start the same on every node",
-                                         rank, node, key, is_build ? build : its, team_.node(), is_build ? value : own_checksum));
+                                         rank, node, key, is_code ? code : its, team_.node(), is_code ? value : own_checksum));
       }
       if (!unlike && result != base_name(names_.result))
         unlike = usage_error(fmt::format("rank {} on {} writes {}, and rank 0 on {} writes {}; name the same result on every node",

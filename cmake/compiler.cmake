@@ -17,7 +17,7 @@ function(wholehand_hidden target)
   set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
-add_link_options(-Wl,--build-id=sha1)  # by which a resumed sweep knows its program
+add_link_options(-Wl,--build-id=sha1)  # by which resumed trials and studies know their program
 add_compile_options(-Wall -Wextra -Wpedantic $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor> -fdiagnostics-color=auto)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wshadow=local -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)  # the last three: GCC 12's false alarms within std::string

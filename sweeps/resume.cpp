@@ -7,8 +7,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "objects/vessel.h"
+#include "sweeps/code_id.h"
 #include "sweeps/sweep_result.h"
-#include "system/build_id.h"
 #include "system/readable.h"
 #include "system/version.h"
 
@@ -41,7 +41,7 @@ std::map<std::string, std::string> sweep_identity(const Scene& scene, const Plan
   for (const Variable* variable : variables) names.push_back(variable->name);
   return {{"text of the scene", scene.text},
           {"version", version()},
-          {"build", build_name()},  // other code may give other bits
+          {"code", code_id()},  // other code may give other bits
           {"backend", info.backend},
           // the core gives the same on any number of threads
           {"device", info.backend == "core" ? "core" : info.device},

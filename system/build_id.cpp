@@ -6,8 +6,6 @@
 #include <link.h>
 
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 
 namespace wholehand {
 namespace {
@@ -43,14 +41,6 @@ std::string build_id() {
   std::string id;
   dl_iterate_phdr(read_program, &id);
   return id.empty() ? "unknown" : id;
-}
-
-std::string build_name() {
-  std::error_code trouble;  // without /proc the build says enough
-  std::string name = std::filesystem::read_symlink("/proc/self/exe", trouble).filename();
-  const std::string replaced = " (deleted)";  // added where the file has been replaced since
-  if (name.ends_with(replaced)) name.resize(name.size() - replaced.size());
-  return name.empty() ? build_id() : name + " " + build_id();
 }
 
 }  // namespace wholehand

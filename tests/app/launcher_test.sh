@@ -98,16 +98,17 @@ check "through a symbolic link, from another folder" equal "$output" "v1[x]$work
 output=$(cd "$tree" && PATH="$tree:$PATH" wholehand 2>&1)
 check "found on the path" equal "$output" "v1$tree"
 
-# ---- sweeps have a program of their own ----
-check "no sweep, no program for it" [ ! -e "$tree/build/default/wholehand-sweep" ]
-check "a sweep starts it" equal "$("$tree/wholehand" sweep one 2>/dev/null)" "v1 for sweeps[sweep][one]$work"
+# ---- sweeps have a program of their own, which is built sooner ----
+check "the whole program sweeps where it is there" equal "$("$tree/wholehand" sweep one 2>&1)" "v1[sweep][one]$work"
+check "and none is built for sweeps" [ ! -e "$tree/build/default/wholehand-sweep" ]
+rm -rf "$tree/build"
+check "a first sweep has its own" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v1 for sweeps[sweep]$work"
+check "and builds nothing else" [ ! -e "$tree/build/default/wholehand" ]
 output=$("$tree/wholehand" sweep 2>&1)
 check "the second sweep says nothing of the launcher's own" equal "$output" "v1 for sweeps[sweep]$work"
-rm -rf "$tree/build"
-check "a first sweep" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v1 for sweeps[sweep]$work"
-check "builds nothing else" [ ! -e "$tree/build/default/wholehand" ]
 check "any other command builds the whole program" equal "$("$tree/wholehand" rank sweep 2>"$work/err")" "v1[rank][sweep]$work"
 check "and says so" has "$(cat "$work/err")" "wholehand: building"
+check "which sweeps from there on" equal "$("$tree/wholehand" sweep 2>&1)" "v1[sweep]$work"
 
 # ---- what is watched ----
 parts=$(sed -n "s/^parts='\(.*\)'$/\1/p" "$source_dir/wholehand")
@@ -127,8 +128,8 @@ echo "      a later start adds $((with - without)) microseconds (program alone: 
 # ---- what makes it build again ----
 sleep 0.05
 echo '#define VERSION "v2"' >"$tree/core/version.h"
-check "an edited header is built in" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
-check "for sweeps too" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v2 for sweeps[sweep]$work"
+check "an edited header is built into the program for sweeps" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v2 for sweeps[sweep]$work"
+check "and into the whole one" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
 echo 'syntax error' >"$tree/core/new.cpp"
 output=$("$tree/wholehand" 2>&1)
 check "an added source that fails gives exit code 3" equal $? 3
@@ -146,8 +147,9 @@ check "and CMake's words" has "$output" "CMakeLists.txt:23"
 sed -i '$d' "$tree/CMakeLists.txt"
 
 # ---- a user who may not write here ----
-check "(built)" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
-check "(and the program for sweeps)" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v2 for sweeps[sweep]$work"
+touch "$tree/core/version.h"
+check "(the program for sweeps)" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v2 for sweeps[sweep]$work"
+check "(and the whole one)" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
 others() {  # others COMMAND ...: as a user to whom the tree belongs as little as to anybody
   if [ "$(id -u)" = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi
 }
@@ -181,17 +183,6 @@ check "nor run what is not built" equal "$? $output" "3 wholehand: cannot write 
 chmod -R u+w "$tree"
 mv "$work/kept" "$tree/build/default/wholehand"
 rm "$tree/wholehand.other"
-
-# ---- both programs at once ----
-"$tree/wholehand" sweep >/dev/null 2>&1
-sleep 0.05
-touch "$tree/core/version.h"
-"$tree/wholehand" test >/dev/null 2>&1  # which has no tests here, but builds all
-check "after a build of all, neither is built again" equal "$("$tree/wholehand" sweep 2>&1; "$tree/wholehand" 2>&1)" "v2 for sweeps[sweep]$work
-v2$work"
-chmod -R a-w "$tree"
-check "nor is one called old" equal "$(others "$tree/wholehand" sweep 2>&1)" "v2 for sweeps[sweep]$work"
-chmod -R u+w "$tree"
 
 # ---- two starts at once ----
 rm -rf "$tree/build"
@@ -284,6 +275,11 @@ touch "$work/updated"
 start test >/dev/null
 check "but by test" has "$(cat "$work/apt")" \
   "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package wholehand-package-only-package wholehand-test-only-package"
+check "after which nothing is built again, for sweeps neither" equal "$(start sweep; start)" "v2[sweep]$work
+v2$work"
+chmod -R a-w "$tree"
+check "nor called old" equal "$(others "$tree/wholehand" sweep 2>&1)" "v2[sweep]$work"
+chmod -R u+w "$tree"
 
 tool apt-get <<<'#!/bin/sh
 echo "E: no network" ; exit 100'

@@ -365,23 +365,40 @@ class Ranks(Job):
         self.assertEqual(code, 0, errors)
         self.assert_same("large.nc", "killed.nc")
 
-    def test_ranks_of_another_scene_or_build_are_refused(self):
+    def test_one_machine_goes_on_where_ranks_ended_and_ranks_where_it_did(self):
+        path = self.write("large.toml", LARGE)
+        self.given(path, "large.nc")
+        own = [PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core", "--threads", "1"]
+        self.interrupt(self.start(self.command(2, path, "-o", "a.nc", "--mark-seconds", "0.05")), "a.nc")
+        code, _, errors = self.end(self.start([*own, "--resume"]))
+        self.assertEqual(code, 0, errors)
+        self.assertIn("grips are there", errors)
+        self.assert_same("large.nc", "a.nc")
+        os.remove(self.path("a.nc"))
+        self.await_mark(alone := self.start([*own, "--mark-seconds", "0.05"]), "a.nc", lambda marked: sum(marked.values()) > 0)
+        alone.send_signal(signal.SIGINT)
+        self.assertEqual(self.end(alone)[0], 130)
+        code, _, errors = self.run_ranks(3, path, "-o", "a.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assertIn("grips are there", errors)
+        self.assert_same("large.nc", "a.nc")
+
+    def test_ranks_of_another_scene_or_code_are_refused(self):
         path, other = self.write("a.toml", SMALL), self.write("b.toml", SMALL.replace("110", "111"))
         own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]
-        another_build = self.path("wholehand-mpi")
+        another_code = self.path("wholehand-mpi")
         with open(MPI_PROGRAM, "rb") as file:
             program = bytearray(file.read())
-        note = program.index(b"GNU\x00", program.index(b"\x04\x00\x00\x00\x14\x00\x00\x00\x03\x00\x00\x00GNU\x00"))
-        program[note + 4] ^= 1
-        with open(another_build, "wb") as file:
+        program[re.search(rb"sha1-[0-9a-f]{40}\x00", program).start() + 5] ^= 1
+        with open(another_code, "wb") as file:
             file.write(program)
-        os.chmod(another_build, 0o755)
-        for what, command in {"text of the scene": [MPI_PROGRAM, "sweep", other, *own[3:]], "build": [another_build, *own[1:]]}.items():
+        os.chmod(another_code, 0o755)
+        for what, command in {"text of the scene": [MPI_PROGRAM, "sweep", other, *own[3:]], "code": [another_code, *own[1:]]}.items():
             code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *command]))
             self.assertEqual((code, out), (2, ""), errors)
             lines = errors.strip().split("\n")
             self.assertEqual(len(lines), 1, errors)
-            name = "wholehand-mpi " if what == "build" else ""
+            name = "sha1-" if what == "code" else ""
             self.assertRegex(lines[0], rf"wholehand: rank 1 on \S+ has another {what}: {name}[0-9a-f]+, and rank 0 on \S+ has {name}[0-9a-f]+; ")
             self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.nc")])
 

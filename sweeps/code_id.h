@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Which code computes. The definition comes from cmake/code_id.cmake.
+#pragma once
+
+namespace wholehand {
+
+// "sha1-155c253a..": the same in every program of a build, and in every build of the same sources with the same compiler and options.
+const char* code_id();
+
+}  // namespace wholehand
