@@ -153,13 +153,13 @@ std::string ranking_text(const RankedResults& results, const std::vector<JointLi
       const Ranking& ranking = results[r]->ranking;
       held += ranking.plausible[place] - ranking.not_held[place];
       not_held += ranking.not_held[place];
-      counts += fmt::format("  {}{}\n", results.size() > 1 ? one_line(results[r]->result.path()) + ": " : "",
-                            counts_text(ranking, place, !arguments.where.empty()));
       const RankedResult& one = *results[r];
+      const std::string of_result = results.size() > 1 ? one_line(one.result.path()) + ": " : "";
+      counts += fmt::format("  {}{}\n", of_result, counts_text(ranking, place, !arguments.where.empty()));
       const std::size_t vessel = place / one.plan.hand_scales();
       const double gate = gate_tolerance(one.scene, one.result.empty_masses()[vessel]);
       const std::string at_gate = gate_text(ranking.at_gate[place], gate);
-      if (!at_gate.empty()) counts += "  " + at_gate + "\n";
+      if (!at_gate.empty()) counts += fmt::format("  {}{}\n", of_result, at_gate);
       view.score_tolerance = score_tolerance(read_weights(arguments.weights, one.scene), gate);
     }
     std::vector<BestGrip> grips;

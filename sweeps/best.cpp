@@ -158,7 +158,7 @@ std::string best_csv_head(const Scene& scene) {
       "depth,"
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
       "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,"
-      "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,"
+      "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,not_held,"
       "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,";
   if (scene.robust) csv += "robust_mean,robust_low,robust_share,";
   if (scene.arm) csv += "wrist_share,";
@@ -179,8 +179,9 @@ std::string best_csv_row(const Scene& scene, const std::string& vessel, const Be
                   best.phalanx_depth * 1e3, best.palm_depth * 1e3, best.peak_force, degrees(best.peak_tilt), best.largest_hold,
                   degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
   const GripEfforts& efforts = best.efforts;
+  const double not_held = std::isnan(efforts.worst) ? NOT_A_NUMBER : efforts.worst > 1 ? 1 : 0;
   numbers.insert(numbers.end(), {efforts.worst, efforts.fill, degrees(efforts.tilt), efforts.tips_worst, efforts.push,
-                                 efforts.friction_needed, held_margin(efforts.worst)});
+                                 efforts.friction_needed, held_margin(efforts.worst), not_held});
   const GripInput& refined = best.refined;
   const bool is_refined = !std::isnan(best.refined_score);
   for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),

@@ -78,6 +78,9 @@ TEST_F(CommandUnheld, WhereNoGripHoldsOneLineSaysWhatFails) {
   ASSERT_EQ(least_bad.code, 0) << least_bad.output;
   EXPECT_TRUE(has(least_bad.output, "\n     1  0.000")) << least_bad.output;
   EXPECT_TRUE(has(least_bad.output, "canister: no grip holds; ")) << least_bad.output;
+  const std::string listed = file_text(folder / "l.csv");
+  EXPECT_TRUE(has(listed, ",held_margin,not_held,refined_score,")) << listed;
+  EXPECT_TRUE(has(listed, ",1,,,,,,,")) << "not held, and so not refined: " << listed;
   const Outcome grip = run("PROGRAM grip " + result + " --vessel canister --rank 1 --list " + (folder / "l.csv"));
   EXPECT_TRUE(has(grip.output, ": the grip does not hold\n")) << grip.output;
   const auto json =
@@ -119,6 +122,7 @@ TEST_F(CommandUnheld, WhereSomeHoldTheListSaysByHowMuch) {
     return 0.0;
   };
   EXPECT_GT(cell("held_margin"), 1);
+  EXPECT_EQ(cell("not_held"), 0);
   EXPECT_NEAR(cell("held_margin") * cell("worst_effort"), 1, 1e-6);
   const Outcome own = run("PROGRAM rank " + result + " 2>&1"), least_bad = run("PROGRAM rank " + result + " --least-bad 2>&1");
   EXPECT_EQ(own.output, least_bad.output) << "a list of grips that hold stays as it is";

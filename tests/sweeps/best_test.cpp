@@ -121,10 +121,10 @@ TEST(Best, CsvHasOneRowAVesselAndRankWithUnitsInItsHead) {
   EXPECT_TRUE(rows[1].starts_with("first vessel,1,50,45,-10,-90,-2,1.1,0.75,")) << rows[1];
   EXPECT_TRUE(rows[2].starts_with("first vessel,2,"));
   EXPECT_TRUE(rows[3].starts_with("\"a, \"\"b\"\"\",1,")) << rows[3];
-  EXPECT_TRUE(rows[1].ends_with(",inf,,0,,,,,,,,,,,,,,41,\"a, b.nc\",sweep-0")) << "no safe tilt, not refined: empty";
-  EXPECT_TRUE(rows[2].ends_with(",inf,,0,,,,,,,,0.875,51,44,-9,-88,-1,41,\"a, b.nc\",sweep-0")) << rows[2];
+  EXPECT_TRUE(rows[1].ends_with(",inf,,0,,,,,,,,,,,,,,,41,\"a, b.nc\",sweep-0")) << "no safe tilt, not refined: empty";
+  EXPECT_TRUE(rows[2].ends_with(",inf,,0,,,,,,,,,0.875,51,44,-9,-88,-1,41,\"a, b.nc\",sweep-0")) << rows[2];
   EXPECT_TRUE(rows[0].ends_with(
-      ",antipodal,worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,"
+      ",antipodal,worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,not_held,"
       "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,"
       "refined_offset_mm,grip,result,sweep"));
   EXPECT_TRUE(rows[0].starts_with(BEST_CSV_START));
@@ -207,7 +207,7 @@ TEST(Best, SceneWithoutTiltsHasNoForces) {
   EXPECT_TRUE(std::isnan(best.peak_force));
   EXPECT_EQ(best_table(scene, plan, {best}, {1}).find("peak N"), std::string::npos);
   const std::string row = lines(best_csv(scene, plan, {{best}}, {"a.nc", "s"}))[1];
-  EXPECT_TRUE(row.ends_with(best.antipodal ? ",,,,,1,,,,,,,,,,,,,,1,a.nc,s" : ",,,,,0,,,,,,,,,,,,,,1,a.nc,s")) << row;
+  EXPECT_TRUE(row.ends_with(best.antipodal ? ",,,,,1,,,,,,,,,,,,,,,1,a.nc,s" : ",,,,,0,,,,,,,,,,,,,,,1,a.nc,s")) << row;
   EXPECT_NE(best_table(scene, plan, {best}, {1}).find("antipodal"), std::string::npos) << "nothing else says that it would slip";
 }
 
