@@ -117,11 +117,13 @@ std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
 }
 
 std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::string& counts,
-                       const std::vector<std::vector<BestGrip>>& lists, const std::string& file, const ListView& view) {
+                       const std::vector<std::vector<BestGrip>>& lists, const std::vector<std::string>& failures,
+                       const std::string& file, const ListView& view) {
   const std::size_t scales = plan.hand_scales();
   std::string text = scales == 1 ? "" : scene.vessels[vessel].name + ": " + counts + "\n";
   for (std::size_t list = vessel * scales; list < (vessel + 1) * scales; ++list) {
-    text += list_name(scene, plan, list) + ": " + verdict_text(scene, lists[list]) + "\n";
+    text +=
+        list_name(scene, plan, list) + ": " + (failures[list].empty() ? verdict_text(scene, lists[list]) : failures[list]) + "\n";
     if (scales == 1) text += "  " + counts + "\n";
     text += list_lines(scene, plan, vessel, lists[list], file, view);
   }

@@ -42,9 +42,10 @@ std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
                        const std::string& file, const ListView& view);
 
 // A vessel's verdict, its counts (a line or more) and its list; of several hand scales a verdict and a list of each. `lists`: of all vessels, as of
-// GripLists.
+// GripLists; `failures`: of each list what takes the place of its verdict, or nothing.
 std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::string& counts,
-                       const std::vector<std::vector<BestGrip>>& lists, const std::string& file, const ListView& view);
+                       const std::vector<std::vector<BestGrip>>& lists, const std::vector<std::string>& failures,
+                       const std::string& file, const ListView& view);
 
 // The files with the size of the first, the times, and what the process took: CPU seconds and its largest memory.
 std::string closing_lines(const std::vector<std::string>& files, const SweepTimes& times);

@@ -20,6 +20,7 @@
 #include "sweeps/explain.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/idle_notes.h"
+#include "sweeps/rank.h"
 #include "sweeps/refine.h"
 #include "sweeps/resume.h"
 #include "sweeps/robust.h"
@@ -529,17 +530,47 @@ bool Sweep::complete(BestLists& best, InterruptGuard& interrupt) const {
   return !refines() || refine_lists(*evaluator_, scene_, plan(), options_.threads, best, look);
 }
 
+// Whether the result has what `rank --least-bad` needs.
+bool Sweep::keeps_least_bad() const {
+  int kept = 0;
+  for (const Variable* variable : variables_)
+    for (const std::string_view name : {"plausible", "not_held", "worst_effort", "score"}) kept += variable->name == name ? 1 : 0;
+  return kept == 4;
+}
+
 // What there is to say where no grip of a vessel holds.
 std::string Sweep::unheld(std::size_t v) const {
   const GripCounts& counts = mark_.vessels[v].counts;
   if (!counts.none_holds() || !counts.least_bad.is_known()) return "";
   const std::shared_ptr<const Evaluator> core = parts_.open_evaluator();
-  // what `rank` needs
-  int kept = 0;
-  for (const Variable* variable : variables_)
-    for (const std::string_view name : {"plausible", "not_held", "worst_effort"}) kept += variable->name == name ? 1 : 0;
-  return fmt::format("{}{}", unheld_line(*core, scene_, plan(), v, counts.least_bad),
-                     kept == 3 ? fmt::format("; `wholehand rank {} --least-bad` lists such grips", one_line(names_.result)) : "");
+  return fmt::format(
+      "{}{}", unheld_line(*core, scene_, plan(), v, counts.least_bad),
+      keeps_least_bad() ? fmt::format("; `wholehand rank {} --least-bad` lists such grips", one_line(names_.result)) : "");
+}
+
+// The same of each list where others of its vessel have grips: of several hand scales. The marks know the nearest grip of a vessel alone, so the
+// finished result is read.
+std::vector<std::string> Sweep::unheld_lists(const BestLists& best) const {
+  std::vector<std::string> lines(best.size());
+  const std::size_t scales = plan().hand_scales();
+  const auto is_unheld = [&](std::size_t list) {
+    const GripCounts& counts = mark_.vessels[list / scales].counts;
+    return best[list].empty() && counts.not_held > 0 && !counts.none_holds();
+  };
+  std::size_t empty = 0;
+  for (std::size_t list = 0; list < best.size(); ++list) empty += is_unheld(list) ? 1 : 0;
+  if (empty == 0 || is_quiet() || best_wanted_ == 0 || !keeps_least_bad() || has_shards()) return lines;
+  SweepResult result(names_.result);
+  result.use(scene_, plan());
+  const std::shared_ptr<const Evaluator> core = parts_.open_evaluator();
+  const Ranking nearest = rank_grips(result, scene_, plan(), {"", {}, 1, 0, 0, true}, [&] { return core; });
+  for (std::size_t list = 0; list < best.size(); ++list) {
+    if (!is_unheld(list) || nearest.lists[list].empty()) continue;
+    const BestGrip& grip = nearest.lists[list].front();
+    lines[list] =
+        unheld_line(*core, scene_, plan(), list / scales, {grip.efforts.worst, grip.efforts.friction_needed, grip.candidate.index});
+  }
+  return lines;
 }
 
 std::string Sweep::counts_text(std::size_t v) const {
@@ -573,6 +604,7 @@ void Sweep::finish(ResultFile& file, BestLists best) {
   files.insert(files.begin(), is_parted ? names_.partial : names_.result);
   ListView view = options_.list;
   view.by = usual_order(scene_);
+  const std::vector<std::string> failures = unheld_lists(best);
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const std::string& name = scene_.vessels[v].name;
     const std::string failure = unheld(v), counts = counts_text(v);
@@ -580,7 +612,7 @@ void Sweep::finish(ResultFile& file, BestLists best) {
     if (is_quiet() && !failure.empty()) note(name + ": " + failure);
     print_text("\n" + (!failure.empty()    ? fmt::format("{}: {}\n  {}\n", name, failure, counts)
                        : best_wanted_ == 0 ? fmt::format("{}: {}\n", name, counts)
-                                           : best_lines(scene_, plan(), v, counts, best, names_.best, view)));
+                                           : best_lines(scene_, plan(), v, counts, best, failures, names_.best, view)));
   }
   // kernels that ran while the file was being written cost no time of their own
   const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};

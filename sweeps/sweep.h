@@ -124,7 +124,9 @@ class Sweep {
   CompanionRequest companions() const;
   std::vector<int> swept_fields() const;
   bool has_score() const;
+  bool keeps_least_bad() const;
   std::string unheld(std::size_t vessel) const;
+  std::vector<std::string> unheld_lists(const BestLists& best) const;
   std::string counts_text(std::size_t vessel) const;
   MarkBounds bounds() const;
   void announce_check() const;

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "scene/reader.h"
 #include "scene/shipped.h"
+#include "sweeps/plan.h"
 #include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
@@ -22,14 +24,15 @@ namespace {
 class CommandUnheld : public testing::Test {
  protected:
   // A canister with walls of `wall_mm` of steel: 20 mm are 5.5 kg, 1 mm is 0.4 kg.
-  void write_scene(const char* wall_mm, double strength = 1) {
+  void write_scene(const char* wall_mm, double strength = 1, const char* scales = "1") {
     std::ofstream(folder / "a.toml") << "[[vessel]]\nname = \"canister\"\nshape = \"cylinder\"\ndiameter_mm = 75\nheight_mm = 180\n"
                                         "wall_mm = "
                                      << wall_mm << "\ndensity_kg_m3 = 7800\n[table]\n"
                                      << strengths(strength)
                                      << "[liquid]\nfills = [0, 1]\n[grips]\n"
                                         "height_fraction = { from = 0.3, to = 0.9, count = 4 }\n"
-                                        "roll_deg = { from = -90, to = 0, count = 3 }\n[tilts]\ndeg = [0, 45, 90]\n";
+                                        "roll_deg = { from = -90, to = 0, count = 3 }\nhand_scale = "
+                                     << scales << "\n[tilts]\ndeg = [0, 45, 90]\n";
   }
   // The default strengths times a factor.
   static std::string strengths(double factor) {
@@ -127,6 +130,34 @@ TEST_F(CommandUnheld, WhereSomeHoldTheListSaysByHowMuch) {
   const Outcome own = run("PROGRAM rank " + result + " 2>&1"), least_bad = run("PROGRAM rank " + result + " --least-bad 2>&1");
   EXPECT_EQ(own.output, least_bad.output) << "a list of grips that hold stays as it is";
   expect_error("rank " + result + " --where 'not_held_' ", 2, "the nearest is 'not_held'");
+}
+
+// Of several hand scales each has a verdict, which says as much where the others hold.
+TEST_F(CommandUnheld, AHandThatIsTooSmallHasItsOwnVerdict) {
+  write_scene("4", 1, "[0.8, 1]");
+  const Outcome swept = sweep();
+  ASSERT_EQ(swept.code, 0) << swept.output;
+  // the nearest one by hand
+  const auto scales = read_values(result, "hand_scale"), efforts = read_values(result, "worst_effort");
+  ASSERT_EQ(scales.size(), 2u);
+  std::vector<double> least{1e9, 1e9};
+  const Scene scene = read_scene_file(folder / "a.toml");
+  const Plan plan(scene, false);
+  for (std::uint64_t grip = 0; grip < plan.grips(); ++grip) {
+    double& known = least[plan.hand_scale_of(grip)];
+    if (efforts[grip] < known) known = efforts[grip];
+  }
+  ASSERT_GT(least[0], 1);
+  ASSERT_LT(least[1], 1);
+  const std::string start = "\ncanister, hand scale 0.8: no grip holds it: ";
+  const std::size_t at = swept.output.find(start);
+  ASSERT_NE(at, std::string::npos) << swept.output;
+  const std::string line = swept.output.substr(at + 1, swept.output.find('\n', at + 1) - at - 1);
+  EXPECT_TRUE(has(line, "the strength of the hand fails first. Nearest to holding is grip ")) << line;
+  EXPECT_TRUE(has(line, fmt::format("whose worst effort is {:.3f}. ", least[0]))) << line;
+  EXPECT_TRUE(has(line, "hand scale 0.800), ")) << line;
+  EXPECT_TRUE(has(line, " times the strength")) << line;
+  EXPECT_TRUE(has(swept.output, "\ncanister, hand scale 1: grip 1 holds with ")) << swept.output;
 }
 
 // The line about the gate, or nothing.
