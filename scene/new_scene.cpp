@@ -59,7 +59,8 @@ std::string vessel_table(const NewScene& wanted) {
 std::string liquid_table(const NewScene& wanted) {
   std::string text = "\n# ---- what is in it ----\n\n[liquid]\ndensity_kg_m3 = 1000     # water\n";
   if (wanted.fill) {
-    append_key(text, "fills_ml", fmt::format("[0, {}]", *wanted.fill), "each grip is judged at each fill");
+    append_key(text, "fills_ml", *wanted.fill == 0 ? "[0]" : fmt::format("[0, {}]", *wanted.fill),
+               "each grip is judged at each fill");
   } else {
     append_key(text, "fills", "[0, 0.25, 0.5, 0.75, 1]", "of what it holds to the brim: each grip is judged at each fill");
   }
