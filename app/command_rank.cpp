@@ -107,7 +107,7 @@ OutputNames glb_names(const std::string& list) {
 // As many as the sweep listed, or what its scene asks for, or 20 where that is none.
 std::size_t usual_length(const SweepResult& result, const Scene& scene, const Plan& plan) {
   std::size_t most = 0;
-  if (result.lists_best() && !result.lists_all_hands_together())
+  if (result.lists_best())
     for (const auto& list : lists_of_sweep(result, scene, plan)) most = std::max(most, list.size());
   if (most > 0) return most;
   return scene.output.best > 0 ? static_cast<std::size_t>(scene.output.best) : static_cast<std::size_t>(OutputData().best);

@@ -33,7 +33,7 @@ constexpr const char* PICTURE = "session.svg";
 // The tables, and the picture where there is something to draw. What could not be drawn, and why.
 std::string write_session_files(const std::string& folder, const Recording& recording, const SessionReport& report) {
   const std::string picture = folder + "/" + PICTURE;
-  const bool has_own_picture = is_own_picture(picture, is_there(folder, TABLES[0]));
+  const bool has_own_picture = has_mark(picture, PICTURE_MARK);
   write_whole_file(folder + "/session.csv", grasps_csv(report), false);
   write_whole_file(folder + "/states.csv", states_csv(report), false);
   if (has_own_picture) std::remove(picture.c_str());  // of another recording

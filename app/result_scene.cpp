@@ -11,7 +11,7 @@ bool is_result(const std::string& path) { return file_kind_at(path) == FileKind:
 
 Scene scene_of_result(const SweepResult& result, std::string& trouble) {
   const SweepOrigin& origin = result.origin();
-  Scene scene = parse_scene(origin.scene, result.path() + " (its scene)", defaults_of(origin.version));
+  Scene scene = parse_scene(origin.scene, result.path() + " (its scene)");
   if (!origin.scene_file.empty()) scene.file = origin.scene_file;
   trouble = reload_meshes(scene, result.path(), origin.mesh_keys, origin.mesh_lattices);
   return scene;

@@ -80,7 +80,7 @@ RecordedSessions read_sessions(const std::vector<std::string>& paths) {
       first = recording.info;
       if (first->scene_text.empty())
         throw usage_error(path + ": the recording has no scene, which says from which vessels people pour");
-      sessions.scene = parse_scene(first->scene_text, path, defaults_of(first->version));
+      sessions.scene = parse_scene(first->scene_text, path);
       sessions.vessels = session_vessels(sessions.scene);
     } else if (!has_same_vessels(*first, recording.info)) {
       throw usage_error(fmt::format("{}: its vessels or their liquids are not those of {}; people of one study use the same", path,

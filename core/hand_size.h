@@ -18,7 +18,7 @@ HandSize size_of(const HandData& hand);
 // The radii of the tips of thumb and index finger together, at scale 1, m: by so much what they hold is thinner than their gap.
 double tip_radii(const HandData& hand);
 
-// The default hand of versions before 0.4, scale and limits the default's: as long as the mean adult's, but narrower than 99 of 100
+// The hand of `person = "paper"`, scale and limits the default's: as long as the mean adult's, but narrower than 99 of 100
 // hands of women.
 HandData paper_hand();
 

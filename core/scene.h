@@ -212,9 +212,6 @@ struct ScoreWeights {
   double fingers = 0.02, contacts = 0.02, depth = 0.69, posture = 0.02, force = 0.13, hold = 0.12;
 };
 
-// The defaults of earlier versions, which their results have where a scene names no others.
-constexpr ScoreWeights WEIGHTS_0_1{0.30, 0.10, 0.20, 0.10, 0.15, 0.15}, WEIGHTS_0_2{0.20, 0.10, 0.15, 0.10, 0.15, 0.30};
-
 struct OutputData {
   std::string keep_place;                        // as above
   std::optional<std::vector<std::string>> keep;  // variable names; absent: the default set
@@ -280,7 +277,6 @@ struct TaskData {
 // A table that is absent in the file is an absent optional here: that part of the work is left out.
 struct Scene {
   std::string name;
-  std::string version;  // of the program whose defaults the text has; empty: this one
   Pose pose = Pose::articulated;
   double gravity = 9.80665;  // m/s2
   HandData hand;

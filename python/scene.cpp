@@ -25,6 +25,7 @@
 #include "sweeps/idle_notes.h"
 #include "sweeps/plan.h"
 #include "sweeps/robust.h"
+#include "system/version.h"
 
 namespace py = pybind11;
 
@@ -154,7 +155,8 @@ HandlePointer parse_text(const std::string& text, const std::string& name) {
 // The scene of a result, whose meshes must be those of the sweep.
 HandlePointer scene_of_dataset(const std::string& text, const std::string& source, const std::string& scene_file,
                                const std::string& version, const std::string& keys, const std::string& lattices) {
-  Scene scene = parse_scene(text, "the result's scene", defaults_of(version));
+  check_version(source.empty() ? "" : source + ": ", version, "run the sweep again");
+  Scene scene = parse_scene(text, "the result's scene");
   if (!scene_file.empty()) scene.file = scene_file;
   const std::string trouble = reload_meshes(scene, source, keys, lattices, true);
   if (!trouble.empty()) throw usage_error("the result's scene: " + trouble);

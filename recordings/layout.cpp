@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "recordings/checksums.h"
 #include "recordings/fields.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -314,6 +315,7 @@ std::string dimension_names(const Header& header, const classic::Variable& varia
 RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   const Attribute* content = header.attribute("content");
   if (!content || content->bytes != CONTENT) throw usage_error("is not a recording of a session, but another NetCDF file");
+  check_version("", recorded_line(header, "version"), "record the session again");
   std::string fixed;
   for (const classic::Variable& variable : header.variables)
     if (!variable.is_record) fixed += fixed_values(variable);
@@ -330,7 +332,7 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   if (header.attribute("person")) info.person = recorded_integer(header, "person");
   info.rate = recorded_number(header, "rate_Hz");
   if (!(info.rate > 0 && info.rate <= LARGEST_RATE)) throw usage_error(fmt::format("has an impossible rate of {} Hz", info.rate));
-  if (header.attribute("has_clock")) info.has_clock = recorded_yes(header, "has_clock");
+  info.has_clock = recorded_yes(header, "has_clock");
   const auto gap = recorded_numbers(header, "device_gap_m", 2);
   info.device = {recorded_line(header, "device"),
                  recorded_line(header, "device_address"),

@@ -7,7 +7,7 @@
 namespace wholehand {
 
 Scene scene_of_recording(const RecordingInfo& info) {
-  Scene scene = parse_scene(info.scene_text, info.scene_file, defaults_of(info.version));
+  Scene scene = parse_scene(info.scene_text, info.scene_file);
   if (info.person) take_hand_of(scene, info.seed, *info.person);
   return scene;
 }

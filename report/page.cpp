@@ -242,8 +242,7 @@ void begin_page(MarkupWriter& html, const std::string& title) {
 void check_overwrites_page(const std::string& path, const std::string& result) {
   if (is_same_file(path, result))
     throw usage_error(fmt::format("-o {}: this is the result file itself; name another file for the page", path));
-  // a page of version 0.1 has its title alone
-  if (!has_mark(path, "<title>Grips of ")) check_overwrites_marked(path, PAGE_MARK, "page of wholehand's", "-o");
+  check_overwrites_marked(path, PAGE_MARK, "page of wholehand's", "-o");
 }
 
 }  // namespace wholehand

@@ -27,13 +27,9 @@ void read_variables(const SceneTable& output, const char* key, std::string& plac
 }  // namespace
 
 void read_force(const SceneTable& root, ForceData& force) {
-  const auto table = root.table(
-      "force", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm", "grip_strength_N"});
+  const auto table =
+      root.table("force", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm"});
   if (!table) return;
-  if (table->has("grip_strength_N")) {
-    root.file().refuse(table->place("grip_strength_N"), "grip_strength_N of [force] is no longer read",
-                       "allowed: a table [strength] with the strength of each digit (thumb_N, index_N, ..)");
-  }
   table->read("base_N", ranges::BASE_FORCE, force.base);
   table->read("range_N", ranges::FORCE_RANGE, force.range);
   table->read("torque", {{"paper", Torque::paper}, {"exact", Torque::exact}}, force.torque);
@@ -44,7 +40,7 @@ void read_force(const SceneTable& root, ForceData& force) {
   table->read("torsion_mm", ranges::TORSION, force.torsion);
 }
 
-void read_strength(const SceneTable& root, const StrengthData& unnamed, std::optional<StrengthData>& strength) {
+void read_strength(const SceneTable& root, std::optional<StrengthData>& strength) {
   constexpr std::array<const char*, FINGER_COUNT + 1> KEYS{"thumb_N", "index_N", "middle_N", "ring_N", "little_N", "palm_N"};
   std::vector<std::string_view> keys{KEYS.begin(), KEYS.end()};
   keys.insert(keys.end(), {"opening", "efforts"});
@@ -61,7 +57,7 @@ void read_strength(const SceneTable& root, const StrengthData& unnamed, std::opt
     strength.reset();
     return;
   }
-  strength = unnamed;
+  strength.emplace();
   strength->place = root.file().text_of(table->place());
   for (std::size_t digit = 0; digit < KEYS.size(); ++digit)
     table->read(KEYS[digit], ranges::GRIP_STRENGTH, strength->digits[digit]);

@@ -46,8 +46,8 @@ void set_vessel_fills(const SceneTable& root, Scene& scene);
 
 // ---- force.cpp ----
 void read_force(const SceneTable& root, ForceData& force);
-// `unnamed`: what a [strength] has whose keys are absent. Without the table `strength` stays.
-void read_strength(const SceneTable& root, const StrengthData& unnamed, std::optional<StrengthData>& strength);
+// Without the table `strength` stays.
+void read_strength(const SceneTable& root, std::optional<StrengthData>& strength);
 // `has_tilts`: the force and hold terms count.
 void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights);
 void read_output(const SceneTable& root, OutputData& output);

@@ -11,7 +11,6 @@
 
 #include "core/error.h"
 #include "core/file_kind.h"
-#include "core/hand_size.h"
 #include "scene/parts.h"
 #include "scene/scan.h"
 
@@ -40,7 +39,7 @@ std::string stem_of(const std::string& name) {
   return stem.substr(0, ranges::LARGEST_NAME);
 }
 
-void read_scene(const SceneTable& root, const StrengthData& strength, Scene& scene) {
+void read_scene(const SceneTable& root, Scene& scene) {
   if (const auto table = root.table("scene", {"name", "pose", "gravity_m_s2"})) {
     table->read_text("name", ranges::LARGEST_NAME, scene.name);
     if (scene.name.find('/') != std::string::npos) {
@@ -55,7 +54,7 @@ void read_scene(const SceneTable& root, const StrengthData& strength, Scene& sce
   check_vessels(root, scene);
   set_vessel_fills(root, scene);
   read_force(root, scene.force);
-  read_strength(root, strength, scene.strength);
+  read_strength(root, scene.strength);
   const bool has_mesh =
       std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });
   read_grips(root, has_mesh, scene.grips);
@@ -73,14 +72,7 @@ void read_scene(const SceneTable& root, const StrengthData& strength, Scene& sce
 
 }  // namespace
 
-SceneDefaults defaults_of(const std::string& version) {
-  const auto is_of = [&](const char* minor) { return version.rfind(minor, 0) == 0; };
-  if (is_of("0.1.")) return {WEIGHTS_0_1, version, true};
-  if (is_of("0.2.")) return {WEIGHTS_0_2, version, true};
-  return {{}, version, is_of("0.3.")};
-}
-
-Scene parse_scene(std::string_view text, const std::string& name, const SceneDefaults& unnamed) {
+Scene parse_scene(std::string_view text, const std::string& name) {
   const SceneFile file(name);
   static_assert(ranges::LARGEST_FILE == 1 << 20, "as the line below says");
   if (text.size() > ranges::LARGEST_FILE) {
@@ -92,19 +84,11 @@ Scene parse_scene(std::string_view text, const std::string& name, const SceneDef
   scene.name = stem_of(name);
   scene.file = name;
   scene.text = text;
-  scene.version = unnamed.version;
   const SceneTable root(file, table, "the scene",
                         {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "table",
                          "arm", "robust", "people", "live", "device", "task"});
-  scene.score = unnamed.score;
-  StrengthData strength;
-  strength.by_opening = !unnamed.is_before_0_4;
-  if (unnamed.is_before_0_4) {
-    scene.hand = paper_hand();
-  } else {
-    scene.strength = strength;
-  }
-  read_scene(root, strength, scene);
+  scene.strength.emplace();
+  read_scene(root, scene);
   return scene;
 }
 

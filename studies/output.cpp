@@ -27,7 +27,7 @@ void prepare_study_folder(const std::string& folder) {
   check_overwrites_marked(files.journal, STUDY_JOURNAL_START, "journal of wholehand study", "-o");
   check_overwrites_marked(files.page, STUDY_PAGE_MARK, "page of wholehand study", "-o");
   // a NetCDF-4 file has no mark of ours near its begin: beside our table it is ours
-  if (!is_there(folder, TABLE)) check_overwrites_nothing(files.nc, "-o");
+  if (!begins_with(files.csv, STUDY_CSV_START)) check_overwrites_nothing(files.nc, "-o");
   check_overwrites_result(files.nc);
 }
 

@@ -141,7 +141,7 @@ class StudyRun {
     const StudyIdentity identity{{"text of the scene", checksum_text(scene_.text.data(), scene_.text.size())},
                                  {"set of meshes", mesh_keys(scene_)},
                                  {"seed", fmt::format("{}", options_.seed)},
-                                 {"build of the program", fmt::format("{} {}", version(), build_id())}};
+                                 {JOURNAL_BUILD, fmt::format("{} {}", version(), build_id())}};
     const std::size_t given_up = options_.resumes ? 0 : parts_in_journal(folder_->files().journal);
     journal_ = std::make_unique<StudyJournal>(folder_->files().journal, identity, options_.resumes);
     if (given_up > 0)

@@ -17,11 +17,6 @@
 #include "system/pictures.h"
 
 namespace wholehand {
-namespace {
-
-constexpr std::string_view OLD_MARK_START = "{";  // of version 0.1
-
-}  // namespace
 
 void check_best_glb(const Scene& scene, const Plan& plan, const OutputNames& names, int glb) {
   for (const std::string& part : list_file_parts(scene, plan)) {
@@ -50,14 +45,10 @@ void check_companions(const Scene& scene, const OutputNames& names, bool best, b
   // what check_room reserved and nobody has defined yet is zeros
   if (!begins_with(names.partial, std::string_view("\0\0\0\0\0\0\0\0", 8)))
     check_overwrites_kind(names.partial, NETCDF4_START, "partial result", "-o");
-  check_not_the_scene(names.mark, scene);
-  if (!begins_with(names.mark, OLD_MARK_START)) check(names.mark, MARK_START, "progress mark of wholehand's");
+  check(names.mark, MARK_START, "progress mark of wholehand's");
   if (best) check(names.best, BEST_CSV_START, "list of wholehand's");
-  for (const std::string& part : pictures ? file_name_parts(scene) : std::vector<std::string>()) {
-    const std::string picture = names.heat_map(part);
-    check_not_the_scene(picture, scene);
-    check_overwrites_picture(picture, begins_with(names.result, NETCDF4_START));
-  }
+  for (const std::string& part : pictures ? file_name_parts(scene) : std::vector<std::string>())
+    check(names.heat_map(part), PICTURE_MARK, "picture of wholehand's");
   if (glb > 0) check_best_glb(scene, Plan(scene, false), names, glb);
 }
 

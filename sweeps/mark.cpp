@@ -21,6 +21,7 @@
 #include "system/files.h"
 #include "system/json.h"
 #include "system/readable.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -199,6 +200,8 @@ bool load_mark(const std::string& path, SweepMark& mark, const char* remedy) {
   } catch (const std::exception&) {
     throw unusable(path, "not a progress mark of this program", remedy);
   }
+  if (const auto written_by = mark.identity.find("version"); written_by != mark.identity.end())
+    check_version(path + ": ", written_by->second, remedy);
   return true;
 }
 

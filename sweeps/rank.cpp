@@ -252,7 +252,7 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
 
 // Sets what the sweep refined of the grips that it listed, too.
 void set_refined(const SweepResult& result, const Plan& plan, std::size_t list, std::vector<BestGrip>& grips) {
-  if (!result.lists_best() || result.lists_all_hands_together()) return;
+  if (!result.lists_best()) return;
   const std::size_t vessel = list / plan.hand_scales(), scale = list % plan.hand_scales();
   const std::vector<Candidate> listed = result.best(vessel, scale);
   const auto refined = result.refined(vessel, scale);
@@ -269,7 +269,7 @@ void set_refined(const SweepResult& result, const Plan& plan, std::size_t list, 
 
 // The same of the robust scores.
 void set_robust(const SweepResult& result, const Plan& plan, std::size_t list, std::vector<BestGrip>& grips) {
-  if (!result.lists_best() || result.lists_all_hands_together()) return;
+  if (!result.lists_best()) return;
   const std::size_t vessel = list / plan.hand_scales(), scale = list % plan.hand_scales();
   const std::vector<Candidate> listed = result.best(vessel, scale);
   const auto robust = result.robust(vessel, scale);

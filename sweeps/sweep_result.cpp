@@ -22,6 +22,7 @@
 #include "system/file_kind_at.h"
 #include "system/files.h"
 #include "system/readable.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -67,6 +68,7 @@ SweepResult::SweepResult(const std::string& path) : file_(check_is_result(path))
                       ": is the answer of wholehand trials, and not a result of a sweep; give a result of wholehand sweep, "
                       "or for new trials a scene; wholehand view plays the disagreement-*.nc beside it");
   origin_.version = text("version");
+  check_version(path + ": ", origin_.version, "run the sweep again");
   origin_.backend = text("backend");
   origin_.device = text("device");
   origin_.driver = text("driver");
@@ -173,11 +175,6 @@ std::vector<double> SweepResult::pick(const Variable& variable, std::size_t vess
 }
 
 bool SweepResult::lists_best() const { return file_.find(BEST_GRIP) != nullptr; }
-
-bool SweepResult::lists_all_hands_together() const {
-  const GuardedFile::Stored* grips = file_.find(BEST_GRIP);
-  return grips && plan_->hand_scales() > 1 && grips->shape.size() == 2;
-}
 
 std::vector<Candidate> SweepResult::best(std::size_t vessel, std::size_t hand_scale) const {
   if (!lists_best()) return {};
@@ -296,10 +293,6 @@ void SweepResult::check_shape(const std::string& name, const std::vector<std::si
 // Grips in each list of the best, places that were filled included; `dimensions`: of such a variable.
 std::size_t SweepResult::ranks(std::size_t dimensions) const {
   const std::vector<std::size_t>& shape = numbers(BEST_GRIP).shape;
-  if (lists_all_hands_together()) {
-    throw usage_error(fmt::format(
-        "{0}: is from a version with one list for all hand scales; sweep again, or use wholehand rank {0} -o LIST.csv", path()));
-  }
   if (shape.size() != dimensions) throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path(), BEST_GRIP));
   if (shape.back() > MOST_BEST)
     throw usage_error(

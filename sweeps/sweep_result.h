@@ -75,8 +75,6 @@ class SweepResult {
   // Whether the sweep was asked to list its best grips; and those of a vessel and, where the plan has several, of a hand scale, the best first, none
   // where none is feasible and plausible.
   bool lists_best() const;
-  // Version 0.1 did, of several hand scales: best() then throws Error (usage).
-  bool lists_all_hands_together() const;
   std::vector<Candidate> best(std::size_t vessel, std::size_t hand_scale = 0) const;
 
   // Where the sweep refined the grips of best(), in their order; nothing where it did not, as before there were such.

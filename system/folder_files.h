@@ -14,10 +14,7 @@ struct FolderTable {
   std::string_view start;
 };
 
-bool is_there(const std::string& folder, const FolderTable& table);
-
-// Throws Error (usage) where one of the tables or pictures is there, has something in it and is not of `command`. At least one table: the
-// pictures are beside our own files where the first of them is there.
+// Throws Error (usage) where one of the tables or pictures is there, has something in it and is not of `command`.
 void check_folder_files(const std::string& folder, const char* command, std::span<const FolderTable> tables,
                         std::span<const char* const> pictures);
 

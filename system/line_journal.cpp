@@ -15,6 +15,7 @@
 #include "system/checksum.h"
 #include "system/file_set.h"
 #include "system/json.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -58,6 +59,7 @@ void check_head(std::ifstream& file, const std::string& path, const JournalKind&
   std::getline(file, format);
   std::getline(file, head);
   const auto known = content_of(head);
+  if (known && known->is_object()) check_version(path + ": ", known->value(JOURNAL_BUILD, std::string()), kind.remedy_anew);
   if (format != fmt::format("{}{}", kind.start, kind.format) || !known || !known->is_object())
     throw failure_error(fmt::format("{}: is damaged, or of another version; {}", path, kind.remedy_anew));
   std::string unlike;

@@ -15,6 +15,9 @@ namespace wholehand {
 // What must be the same for a run to go on: a name, for the message, and its value.
 using JournalIdentity = std::map<std::string, std::string>;
 
+// The name in it whose value begins with the version of the program.
+inline constexpr const char* JOURNAL_BUILD = "build of the program";
+
 struct JournalKind {
   std::string_view start, format;                // what the first line has: a journal of what, and the version of its lines
   std::string_view begun;                        // "this study was begun"
@@ -33,7 +36,7 @@ class LineJournal {
   // Begins anew. Throws Error (failure) where the file cannot be written.
   LineJournal(const std::string& path, const JournalKind& kind, const JournalIdentity& identity);
   // Goes on: `take` gets what is done, in the file's order, and lines that are not as they were written are counted in `damaged`.
-  // Throws Error: (usage) the journal is of another run, and in what; (failure) it cannot be read or written, or its head is
+  // Throws Error: (usage) a version before 0.4 wrote the journal, or it is of another run, and in what; (failure) it cannot be read or written, or its head is
   // damaged.
   LineJournal(const std::string& path, const JournalKind& kind, const JournalIdentity& identity, const Take& take,
               std::size_t& damaged);

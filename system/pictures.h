@@ -16,12 +16,6 @@ struct PictureFile {
   std::string svg;
 };
 
-// Whether a picture is there that was drawn here. `is_beside_own`: beside a file of ours; there it may also be one of version
-// 0.1.0, whose title is that of anybody who draws with gnuplot.
-bool is_own_picture(const std::string& path, bool is_beside_own);
-// Throws Error (usage) where something is there that is neither empty nor such a picture: it is not overwritten.
-void check_overwrites_picture(const std::string& path, bool is_beside_own);
-
 // Writes each of them as write_whole_file does. Returns an empty string, or why they are not all there: a sentence for the user, as
 // no result depends on its pictures. `written` gets the paths of those that are.
 std::string write_pictures(const std::vector<PictureFile>& pictures, std::vector<std::string>* written = nullptr);

@@ -64,10 +64,8 @@ double value_of(const TriedGrips& tried, std::size_t grip, const TrialGroup& gro
       return -said.friction_needed;
     case BY_EPSILON:
       return said.epsilon;
-    case BY_SCORE:
-      return said.score;
     default:
-      return said.score_0_1;
+      return said.score;
   }
 }
 
@@ -339,8 +337,8 @@ ScatterAnalysis analyse_scatter(const Scene& scene, const TriedGrips& tried, con
 }  // namespace
 
 const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES{
-    "worst effort",         "worst effort of the scene", "worst tips effort",     "push", "friction needed", "epsilon", "score",
-    "score of version 0.1", "effort of the way",         "tips effort of the way"};
+    "worst effort", "worst effort of the scene", "worst tips effort",     "push", "friction needed", "epsilon",
+    "score",        "effort of the way",         "tips effort of the way"};
 
 const std::array<const char*, SCATTER_PREDICTORS> SCATTER_PREDICTOR_NAMES{"score", "robust rank", "share of deviations that hold"};
 

@@ -65,7 +65,6 @@ enum TrialPredictorName : std::size_t {
   BY_FRICTION_NEEDED,
   BY_EPSILON,
   BY_SCORE,
-  BY_SCORE_0_1,
   BY_LEG_EFFORT,  // of the way to a state; the last two are judged trial by trial
   BY_LEG_TIPS,
   TRIAL_PREDICTORS

@@ -147,7 +147,6 @@ class Dataset {
     of_grips("epsilon", "1", "Ferrari and Canny's epsilon, middle of its bracket",
              [](const Grip&, const Said& said) { return said.epsilon; });
     of_grips("score", "1", "score", [](const Grip&, const Said& said) { return said.score; });
-    of_grips("score_0_1", "1", "score of version 0.1", [](const Grip&, const Said& said) { return said.score_0_1; });
     std::vector<double> terms;
     for (const GripFinding& found : tried_.found)
       terms.insert(terms.end(), found.prediction.terms.begin(), found.prediction.terms.end());

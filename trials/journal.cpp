@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr JournalKind TRIAL_JOURNAL{JOURNAL_START,
-                                    "3",
+                                    "4",
                                     "these trials were begun",
                                     "make room, or name another folder",
                                     "make room, then go on with --resume",
@@ -29,7 +29,7 @@ double number_at(const Json& array, std::size_t k) { return std::bit_cast<double
 Json prediction_json(const GripPrediction& said) {
   Json numbers = Json::array();
   for (const double value : {said.worst_effort, said.tips_worst_effort, said.scene_worst_effort, said.push, said.friction_needed,
-                             said.epsilon, said.score, said.score_0_1})
+                             said.epsilon, said.score})
     numbers.push_back(bits_of(value));
   for (const double term : said.terms) numbers.push_back(bits_of(term));
   for (const CasePrediction& one : said.cases) {
@@ -42,7 +42,7 @@ GripPrediction prediction_of(const Json& numbers, std::size_t cases) {
   GripPrediction said;
   std::size_t next = 0;
   for (double* value : {&said.worst_effort, &said.tips_worst_effort, &said.scene_worst_effort, &said.push, &said.friction_needed,
-                        &said.epsilon, &said.score, &said.score_0_1})
+                        &said.epsilon, &said.score})
     *value = number_at(numbers, next++);
   for (double& term : said.terms) term = number_at(numbers, next++);
   said.cases.resize(cases);

@@ -249,7 +249,7 @@ void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source) {
                     group_text(group, source.options.settings));
     write_charts(html, caption, [&](MarkupWriter& charts) {
       write_roc(charts, source, group, "By efforts and forces", {BY_WORST_EFFORT, BY_TIPS_EFFORT, BY_PUSH, BY_FRICTION_NEEDED});
-      write_roc(charts, source, group, "By scores and epsilon", {BY_SCORE, BY_SCORE_0_1, BY_EPSILON});
+      write_roc(charts, source, group, "By scores and epsilon", {BY_SCORE, BY_EPSILON});
     });
   }
   for (const TrialGroup& group : source.analysis.groups) write_auc_table(html, source, group);

@@ -302,7 +302,6 @@ void write_trial_words(MarkupWriter& html) {
   word("push", "force that may push the full, upright vessel along any axis while the effort stays up to 1");
   word("friction needed", "least friction with which the worst effort of the scene is up to 1");
   word("epsilon", "radius of the largest ball of wrenches that the contacts resist (Ferrari and Canny), the middle of its bracket");
-  word("score of version 0.1", "the same terms with the weights of version 0.1, where holding counts the two tips alone");
   word("AUC",
        "how often a success has a better value than a failure: 1 is perfect, 0.5 is chance. Its interval is by a bootstrap that "
        "draws "

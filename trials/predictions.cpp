@@ -54,19 +54,8 @@ std::vector<double> leg_tilts(double from, double to) {
   return tilts;
 }
 
-Scene scene_of_0_1(const Scene& scene) {
-  Scene old = scene;
-  old.strength.reset();
-  old.score = WEIGHTS_0_1;
-  return old;
-}
-
 TrialPredictor::TrialPredictor(const Scene& scene, const TrialSettings& settings)
-    : scene_(with_friction(scene, settings)),
-      scene_0_1_(scene_of_0_1(scene_)),
-      settings_(settings),
-      core_(make_core_evaluator(scene_)),
-      core_0_1_(make_core_evaluator(scene_0_1_)) {
+    : scene_(with_friction(scene, settings)), settings_(settings), core_(make_core_evaluator(scene_)) {
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) states_.push_back(states_of(v));
 }
 
@@ -169,29 +158,9 @@ void TrialPredictor::predict_scores(const Held& held, GripPrediction& prediction
       terms.fingers, terms.contacts,
       terms.depth,   terms.posture,
       terms.force,   std::isnan(settings_.mass) ? terms.hold : core_f64::effort_term(prediction.scene_worst_effort)};
-  const std::array<double, 6> weights = effective_weights(scene_), weights_0_1 = effective_weights(scene_0_1_);
-  const ScoreTerms old = core_0_1_->score(held.vessel, held.grip, held.result).terms;
-  const std::array<double, 6> terms_0_1{old.fingers, old.contacts, old.depth, old.posture, old.force, hold_0_1(held, old.hold)};
-  for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k) {
-    prediction.score += weights[k] * prediction.terms[k];
-    prediction.score_0_1 += weights_0_1[k] * terms_0_1[k];
-  }
+  const std::array<double, 6> weights = effective_weights(scene_);
+  for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k) prediction.score += weights[k] * prediction.terms[k];
   if (!core_f64::effort_holds(prediction.scene_worst_effort)) prediction.score = 0;
-}
-
-// The hold term of version 0.1: with another mass the hold force of each state is in proportion to it.
-double TrialPredictor::hold_0_1(const Held& held, double term) const {
-  if (std::isnan(settings_.mass)) return term;
-  const StateAxes axes = scene_axes(scene_0_1_, held.vessel);
-  const std::vector<std::size_t> counted = counted_tilts(scene_0_1_, held.vessel);
-  double largest = 0;
-  for (std::size_t f = 0; f < axes.fills.size(); ++f)
-    for (std::size_t t = 0; t < counted[f]; ++t) {
-      const LiquidResult liquid = scene_.liquid ? core_0_1_->liquid(held.vessel, axes.fills[f], axes.tilts[t]) : LiquidResult{};
-      const StateResult state = core_0_1_->state(held.vessel, held.grip, held.result, liquid, axes.tilts[t]);
-      largest = std::max(largest, state.hold_force * settings_.mass / state.mass);
-    }
-  return core_f64::hold_term(largest, scene_0_1_.force.grip_strength);
 }
 
 }  // namespace wholehand

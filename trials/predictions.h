@@ -36,7 +36,6 @@ struct GripPrediction {
   double epsilon = 0;                            // the middle of its bracket
   double score = 0;                              // 0 where the worst effort of the scene is above 1
   std::array<double, SCORE_TERM_COUNT> terms{};  // fingers, contacts, depth, posture, force, hold
-  double score_0_1 = 0;                          // as version 0.1 had it
 };
 
 // The tilts at which a way from one tilt to another is looked at: both, and every whole LEG_STEP between them.
@@ -65,7 +64,6 @@ class TrialPredictor {
   void predict_states(const Held& held, GripPrediction& prediction) const;
   void predict_scores(const Held& held, GripPrediction& prediction) const;
   double mass_of(double state) const;
-  double hold_0_1(const Held& held, double term) const;
 
   // A vessel over the scene's states, with the mass of the trials.
   struct States {
@@ -76,13 +74,10 @@ class TrialPredictor {
   };
   States states_of(std::size_t vessel) const;
 
-  Scene scene_, scene_0_1_;  // the second as version 0.1 scored it
+  Scene scene_;
   TrialSettings settings_;
-  std::shared_ptr<const Evaluator> core_, core_0_1_;
+  std::shared_ptr<const Evaluator> core_;
   std::vector<States> states_;  // of each vessel
 };
-
-// Kernel 7's two-tip formula and the weights of version 0.1, beside a scene's own.
-Scene scene_of_0_1(const Scene& scene);
 
 }  // namespace wholehand

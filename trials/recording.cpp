@@ -91,7 +91,7 @@ RecordingInfo info_of_trial(const Scene& scene, const std::string& engine, const
   info.scene_name = scene.name;
   info.scene_file = scene.file;
   info.scene_text = text_of_one_vessel(scene, grip.vessel);
-  info.version = scene.version.empty() ? version() : scene.version;
+  info.version = version();
   info.rate = TICK_RATE;
   info.has_clock = false;
   info.device.name = TRIAL_DEVICE + engine;
@@ -133,7 +133,7 @@ std::string text_of_one_vessel(const Scene& scene, std::size_t vessel) {
     at = end + 1;
   }
   try {
-    const Scene left = parse_scene(text, scene.file, defaults_of(scene.version));
+    const Scene left = parse_scene(text, scene.file);
     if (left.vessels.size() == 1 && left.vessels[0].name == scene.vessels[vessel].name) return text;
   } catch (const Error&) {
     return "";

@@ -79,7 +79,7 @@ TrialIdentity identity_of(const Scene& scene, const TrialOptions& options, const
           {"number of deviations", fmt::format("{}", options.scatter)},
           {"seed", fmt::format("{}", options.seed)},
           {"engine", engine.name()},
-          {"build of the program", fmt::format("{} {}", version(), build_id())}};
+          {JOURNAL_BUILD, fmt::format("{} {}", version(), build_id())}};
 }
 
 void check_trial_scene(const Scene& scene, std::size_t scatter) {
@@ -87,7 +87,7 @@ void check_trial_scene(const Scene& scene, std::size_t scatter) {
   if (!scene.strength)
     throw usage_error(
         fmt::format("{}: trials need the strength of the hand, which this scene does not have; leave efforts = false out of "
-                    "[strength], or sweep an older result again",
+                    "[strength]",
                     name));
   if (scene.tilts.empty())
     throw usage_error(fmt::format("{}: trials need [tilts], as efforts do; add it to the scene, with its deg", name));

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* COLUMNS =
     "vessel,grip,fill,tilt_rad,protocol,effort,tips_effort,push_N,score,held,slip_m,turn_rad,discarded,reason,"
     "sample,model,material,direction,move_m,lost_after_s,tilt_lost_rad,worst_effort,tips_worst_effort,scene_worst_effort,"
-    "friction_needed,epsilon,score_0_1,score_fingers,score_contacts,score_depth,score_posture,score_force,score_hold,"
+    "friction_needed,epsilon,score_fingers,score_contacts,score_depth,score_posture,score_force,score_hold,"
     "height_m,azimuth_rad,obliquity_rad,roll_rad,offset_m,hand_scale,leg_effort,leg_tips_effort,slipped,robust_low,robust_mean,"
     "robust_share,"
     "placements,"
@@ -42,7 +42,7 @@ class RowText {
 
 void add_grip(RowText& row, const TrialGrip& grip, const GripPrediction& said) {
   row.add(said.worst_effort).add(said.tips_worst_effort).add(said.scene_worst_effort);
-  row.add(said.friction_needed).add(said.epsilon).add(said.score_0_1);
+  row.add(said.friction_needed).add(said.epsilon);
   for (const double term : said.terms) row.add(term);
   row.add(grip.grip.height).add(grip.grip.azimuth).add(grip.grip.obliquity);
   row.add(grip.grip.roll).add(grip.grip.offset).add(grip.grip.hand_scale);

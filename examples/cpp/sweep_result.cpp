@@ -9,8 +9,7 @@
 int main() {
   using namespace wholehand;
   SweepResult result("swept.nc");
-  const Scene scene =
-      parse_scene(result.origin().scene, "swept.nc", defaults_of(result.origin().version));  // the file has the scene's text
+  const Scene scene = parse_scene(result.origin().scene, "swept.nc");  // the file has the scene's text
   const Plan plan(scene, false);
   result.use(scene, plan);
   std::vector<double> scores(plan.stored_grips());

@@ -242,6 +242,8 @@ class Best(InFolder):
         spoilt = data.copy()
         spoilt.attrs["scene"] = "not a scene"
         self.refused(wh.best, spoilt)
+        old = data.assign_attrs(version="0.3.0")
+        self.assertIn("written by version 0.3.0; this version reads files from 0.4.0 on", str(self.refused(wh.best, old)))
         with self.assertRaises(TypeError):
             wh.best(data, by=np.zeros(3))
         pathlib.Path("scene.toml").write_text(MESH)

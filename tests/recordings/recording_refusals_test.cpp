@@ -121,6 +121,13 @@ std::string as_real(double value) {
   return bytes;
 }
 
+TEST(Recording, RefusesVersionsBefore04) {
+  Changed changed(1);
+  EXPECT_REFUSED(changed.renamed("1.2.3", "0.3.9"),
+                 "written by version 0.3.9; this version reads files from 0.4.0 on: record the session again");
+  EXPECT_NO_THROW(read_recording(changed.renamed("1.2.3", "0.4.0")));
+}
+
 TEST(Recording, RefusesWhatLacksSomething) {
   Changed changed(3);
   for (const char* name : {"state", "device_gap", "proxies", "liquid_volume", "step_time"}) {

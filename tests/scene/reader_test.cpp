@@ -161,22 +161,6 @@ TEST(SceneReader, ThePapersHand) {
   EXPECT_EQ(hand.depth_limit, 4e-3);
 }
 
-TEST(SceneReader, TextsOfEarlierVersionsHaveTheirDefaults) {
-  const auto read = [](const std::string& text, const char* version) {
-    return parse_scene(text + VESSEL, "test.toml", defaults_of(version));
-  };
-  for (const char* version : {"0.1.0", "0.2.1", "0.3.0"}) {
-    const Scene plain = read("", version), strong = read("[strength]\nthumb_N = 41\n", version);
-    EXPECT_EQ(plain.hand.fingers[2].base, paper_hand().fingers[2].base) << version;
-    EXPECT_FALSE(plain.strength) << version;
-    EXPECT_FALSE(strong.strength.value().by_opening) << version;
-  }
-  EXPECT_EQ(read("", "0.2.1").score.fingers, WEIGHTS_0_2.fingers);
-  const Scene today = read("", "0.4.0");
-  EXPECT_EQ(today.hand.fingers[2].base, HandData{}.fingers[2].base);
-  EXPECT_TRUE(today.strength.value().by_opening);
-}
-
 TEST(SceneReader, RefusesHandsOfNobody) {
   const std::string either = "allowed: one of length_mm and person";
   expect_refusal("[hand]\nlength_mm = 180\nperson = @{ sex = \"male\", percentile = 5 }\n" + VESSEL,

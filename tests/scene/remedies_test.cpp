@@ -105,8 +105,6 @@ TEST(SceneRemedies, HelpTheRestOfAScene) {
       {"[liquid]\nfills = [0]\nfills_ml = [0]\n", "allowed: one of the two", "[liquid]\nfills_ml = [0]\n"},
       {"[tilts]\ndeg = [0]\nuntil_poured = 0.5\n", "allowed: in a scene with [liquid]",
        "[tilts]\ndeg = [0]\nuntil_poured = 0.5\n" + liquid},
-      {"[force]\ngrip_strength_N = 40\n", "allowed: a table [strength] with the strength of each digit (thumb_N, index_N, ..)",
-       "[strength]\nthumb_N = 40\n"},
       {"[score]\nfingers = 0\ncontacts = 0\ndepth = 0\nposture = 0\n", "allowed: at least one weight above 0 that counts",
        "[score]\nfingers = 1\ncontacts = 0\ndepth = 0\nposture = 0\n"},
       {"[score]\nfingers = 0\ncontacts = 0\ndepth = 0\nposture = 0\n", "and there are no [tilts]",

@@ -39,7 +39,6 @@ constexpr RefusedScene UNKNOWN_KEYS[] = {
 };
 
 constexpr RefusedScene WRONG_TYPES[] = {
-    {"[force]\ngrip_strength_N = @40", "grip_strength_N of [force] is no longer read; allowed: a table [strength]"},
     {"scene = @3", "scene = 3; allowed: a table"},
     {"[scene]\npose = @3", "pose = 3; allowed: \"articulated\", \"paper\" or \"rigged\""},
     {"[scene]\ngravity_m_s2 = @\"heavy\"", "gravity_m_s2 = 'heavy'; allowed: a number, 0 to 100"},

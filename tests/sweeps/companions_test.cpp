@@ -35,7 +35,7 @@ TEST(Companions, ForeignFilesAreRefusedAndOwnOnesAreNot) {
   };
   for (const auto& [name, own, foreign] :
        {Case{"a.best.csv", "vessel,rank,height_mm,azimuth_deg\n", "name,price\nvessel,3\n"},
-        Case{"a.second.svg", "<?xml version=\"1.0\"?>\n<svg>\n<title>wholehand</title>", "<svg><title>my drawing</title></svg>"},
+        Case{"a.second.svg", "<svg>\n<metadata>chart of wholehand</metadata>", "<svg><title>wholehand</title></svg>"},
         Case{"a.first_vessel.2.glb", "glTF....JSON{\"asset\":{\"generator\":\"wholehand 1\"}}", "glTF....JSON{\"asset\":{}}"},
         Case{"a.nc.partial", "\x89HDF\r\n\x1a\n", "a text of mine"},
         Case{"a.nc.partial.mark", "wholehand mark 3 00\n{}", "a text of mine"}}) {
@@ -85,29 +85,15 @@ TEST(Companions, FilesOfOthersInAnOutputFolderAreRefused) {
   struct Case {
     const char *name, *own, *foreign;
   };
-  for (const auto& [name, own, foreign] : {Case{"a.csv", "one,two\n1,2\n", "one;two\n"}, Case{"a.md", "# Own words", "# Notes"},
-                                           Case{"a.svg", "<svg><title>wholehand</title>", "<svg><title>Plot</title>"}}) {
+  for (const auto& [name, own, foreign] :
+       {Case{"a.csv", "one,two\n1,2\n", "one;two\n"}, Case{"a.md", "# Own words", "# Notes"},
+        Case{"a.svg", "<svg><metadata>chart of wholehand</metadata>", "<svg><title>Plot</title>"}}) {
     const std::string path = folder / name;
     std::ofstream(path) << foreign;
     EXPECT_EQ(refusal().rfind("-o " + path + ": is there and is no ", 0), 0u) << refusal();
     std::ofstream(path) << own;
     EXPECT_EQ(refusal(), "") << name;
   }
-  std::ofstream(folder / "a.svg") << "<svg><title>Gnuplot</title>";
-  EXPECT_EQ(refusal(), "") << "of version 0.1, beside a table of it";
-  std::ofstream(folder / "a.csv").close();
-  EXPECT_NE(refusal(), "") << "anybody draws with gnuplot";
-}
-
-TEST(Companions, ThoseOfVersion01AreOwn) {
-  const TemporaryFolder folder;
-  const OutputNames names = output_names(folder / "a.nc");
-  std::ofstream(names.mark) << "{\"identity\":{}}";
-  EXPECT_EQ(companion_refusal(fake_scene(), names, true, true, 0), "");
-  std::ofstream(names.heat_map("second")) << "<svg>\n<title>Gnuplot</title>";
-  EXPECT_NE(companion_refusal(fake_scene(), names, true, true, 0), "") << "anybody draws with gnuplot";
-  std::ofstream(names.result) << NETCDF4_START;
-  EXPECT_EQ(companion_refusal(fake_scene(), names, true, true, 0), "");
 }
 
 TEST(Companions, WhatIsNotWrittenIsNotLookedAt) {

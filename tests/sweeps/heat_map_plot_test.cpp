@@ -11,6 +11,8 @@
 #include <iterator>
 #include <regex>
 
+#include "system/files.h"
+#include "system/pictures.h"
 #include "tests/support/fake_backend.h"
 #include "tests/support/files.h"
 #include "tests/support/xml.h"
@@ -72,7 +74,7 @@ TEST(HeatMapPlot, DrawsEveryPicture) {
     EXPECT_FALSE(has(svg, "var(")) << "programs for papers know no variables";
     EXPECT_EQ(cells_of(svg, "cell\"").size(), 26u) << "a cell each";
     EXPECT_EQ(cells_of(svg, "cell hollow\"").size(), 1u);
-    EXPECT_TRUE(is_own_picture(picture.file, false));
+    EXPECT_TRUE(has_mark(picture.file, PICTURE_MARK));
   }
   EXPECT_TRUE(has(file_text(folder / "b.svg"), ">it&#39;s &quot;b&quot; \\ &lt;c&gt; &amp; $d `e` \uFFFD</title>"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "nothing else is left";

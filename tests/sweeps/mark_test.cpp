@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "tests/support/environment.h"
 #include "tests/support/files.h"
+#include "tests/support/refusal.h"
 
 namespace wholehand {
 namespace {
@@ -124,6 +125,15 @@ TEST(Mark, OneOfAnotherVersionIsCalledSo) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("another version"), std::string::npos) << error.what();
   }
+}
+
+TEST(Mark, VersionsBefore04AreRefused) {
+  const TemporaryFolder folder;
+  SweepMark mark = some_mark();
+  mark.identity["version"] = "0.3.0";
+  save_mark(folder / "m", mark);
+  EXPECT_EQ(refusal_line([&] { load_mark(folder / "m", mark); }),
+            (folder / "m") + ": written by version 0.3.0; this version reads files from 0.4.0 on: " + BEGIN_AGAIN);
 }
 
 TEST(Mark, APipeIsNotWaitedFor) {

@@ -15,6 +15,7 @@
 #include "scene/ranges.h"
 #include "scene/reader.h"
 #include "tests/support/files.h"
+#include "tests/support/refusal.h"
 #include "tests/support/result_reader.h"
 #include "tests/support/scenes.h"
 #include "tests/support/sweep_results.h"
@@ -136,24 +137,6 @@ TEST(SweepResultTest, ListsTheBestGripsInTheirOrder) {
   EXPECT_TRUE(swept.result->lists_best());
 }
 
-TEST(SweepResultTest, OneListForAllHandScalesIsSaid) {
-  const SweptScene swept(
-      edited(RESULT_SCENE, "roll_deg = [-90, -30, 0]", "roll_deg = [-90, -30, 0]\nsampling = \"sobol\"\ncount = 70"));
-  Scene hands = swept.scene;
-  hands.grips.hand_scale.values = {1.1, 0.9};
-  SweepResult result(swept.path);
-  const Plan plan(hands, keeps_vectors(result.variables()));
-  result.use(hands, plan);
-  EXPECT_TRUE(result.lists_all_hands_together());
-  EXPECT_FALSE(swept.result->lists_all_hands_together());
-  try {
-    result.best(0);
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("one list for all hand scales; sweep again"), std::string::npos) << error.what();
-  }
-}
-
 TEST(SweepResultTest, AVesselThatNobodyCanHoldHasNoBest) {
   const SweptScene swept(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300"));
   EXPECT_TRUE(swept.result->best(0).empty());
@@ -258,6 +241,20 @@ void put_texts(int file, const char* program) {
   nc_put_att_text(file, NC_GLOBAL, "scene", RESULT_SCENE.size(), RESULT_SCENE.data());
   const double seconds = 1;
   for (const char* name : {"wall_time_s", "kernel_time_s"}) nc_put_att_double(file, NC_GLOBAL, name, NC_DOUBLE, 1, &seconds);
+}
+
+TEST(SweepResultTest, FilesOfVersionsBefore04AreRefused) {
+  const TemporaryFolder folder;
+  for (const auto& [version, is_refused] : {std::pair{"0.1.1", true}, {"0.3.0", true}, {"0.4.0", false}, {"1.0.0", false}}) {
+    const std::string path = foreign_file(folder, [&](int file) {
+      put_texts(file, "wholehand");
+      nc_put_att_text(file, NC_GLOBAL, "version", std::string(version).size(), version);
+    });
+    EXPECT_EQ(refusal_line([&] { SweepResult result(path); }),
+              is_refused
+                  ? path + ": written by version " + version + "; this version reads files from 0.4.0 on: run the sweep again"
+                  : "");
+  }
 }
 
 TEST(SweepResultTest, FilesOfOtherProgramsAreRefused) {

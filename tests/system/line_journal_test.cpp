@@ -93,5 +93,18 @@ TEST(LineJournal, RefusesAnotherRun) {
   EXPECT_EQ(file_text(path), text) << "it stays as it was";
 }
 
+TEST(LineJournal, RefusesVersionsBefore04) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "j";
+  JournalKind kind = kind_of(false);
+  LineJournal(path, kind, {{JOURNAL_BUILD, "0.3.0 1a2b"}});
+  kind.format = "4";
+  Reader reader;
+  EXPECT_EQ(refusal_line([&] {
+              LineJournal(path, kind, {{JOURNAL_BUILD, "0.4.0 3c4d"}}, reader.take, reader.damaged);
+            }),
+            path + ": written by version 0.3.0; this version reads files from 0.4.0 on: begin anew");
+}
+
 }  // namespace
 }  // namespace wholehand

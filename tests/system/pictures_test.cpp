@@ -78,28 +78,5 @@ TEST(Pictures, SeveralThatAreMissingAreCounted) {
   EXPECT_TRUE(failure.starts_with("2 of 3 pictures are missing: cannot write " + none + ": ")) << failure;
 }
 
-TEST(Pictures, AreKnownByTheirMark) {
-  const TemporaryFolder folder;
-  const std::string file = folder / "a.svg";
-  EXPECT_FALSE(is_own_picture(file, true)) << "nothing is there";
-  check_overwrites_picture(file, false);
-  struct Case {
-    std::string text;
-    bool is_own, is_own_beside;
-  };
-  for (const auto& [text, is_own, is_own_beside] :
-       {Case{some_picture(), true, true}, Case{"<svg><title>wholehand</title></svg>", true, true},
-        Case{"<svg>\n<title>Gnuplot</title></svg>", false, true}, Case{"<svg><title>Plot</title></svg>", false, false},
-        Case{"<svg><title>chart of wholehand</title></svg>", false, false}}) {
-    std::ofstream(file) << text;
-    EXPECT_EQ(is_own_picture(file, false), is_own) << text;
-    EXPECT_EQ(is_own_picture(file, true), is_own_beside) << text;
-    for (const bool is_beside : {false, true}) {
-      const std::string refusal = refusal_line([&] { check_overwrites_picture(file, is_beside); });
-      EXPECT_EQ(refusal.empty(), is_beside ? is_own_beside : is_own) << refusal << " of " << text;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace wholehand

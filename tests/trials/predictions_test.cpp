@@ -108,25 +108,6 @@ TEST(TrialPredictions, EffortOfTheWayIsTheLargestOnIt) {
     EXPECT_GE(push.leg_effort, push.effort);
 }
 
-// By hand from the terms: fingers .30, contacts .10, depth .20, posture .10, force .15, hold .15, and 40 N over the largest two-tip
-// force.
-TEST(TrialPredictions, ScoreOfVersion01) {
-  const Scene scene = strong_beakers();
-  const GripPrediction found = TrialPredictor(scene, {}).predict(0, good_grip(), all_cases(scene));
-  Scene plain = scene;
-  plain.strength.reset();
-  const auto core = make_core_evaluator(plain);
-  GripResult result;
-  core->grip(0, good_grip(), result);
-  double largest = 0;
-  for (const double fill : scene.liquid->fills)
-    for (const double tilt : scene.tilts)
-      largest = std::max(largest, core->state(0, good_grip(), result, core->liquid(0, fill, tilt), tilt).hold_force);
-  const double hold = std::min(1.0, 40 / largest);
-  const auto& t = found.terms;
-  EXPECT_NEAR(found.score_0_1, 0.30 * t[0] + 0.10 * t[1] + 0.20 * t[2] + 0.10 * t[3] + 0.15 * t[4] + 0.15 * hold, SAME_KERNELS);
-}
-
 // Twice the mass takes twice the effort; the mass is that of every state.
 TEST(TrialPredictions, MassOfTheTrials) {
   const Scene scene = strong_beakers();
