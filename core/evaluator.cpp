@@ -56,7 +56,6 @@ Limits limits_of(const wholehand::EvaluatorOptions& options) {
 }
 
 bool is_antipodal(const GripAnswer& answer) { return (answer.status & STATUS_ANTIPODAL) != 0; }
-bool is_plausible(const GripAnswer& answer) { return (answer.status & STATUS_PLAUSIBLE) != 0; }
 // From here on there are a gap and a midpoint.
 bool has_closed(const Closing& closing) { return closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE; }
 
@@ -126,7 +125,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
       result.midpoint = back(closing.midpoint);
     }
     if (closing.reason != REASON_NONE) return;
-    result.plausible = is_plausible(answer);
+    result.plausible = wholehand::is_plausible(answer.status);
     result.antipodal = is_antipodal(answer);
     result.grazing = closing.grazing;
     result.contact_angles = {static_cast<double>(closing.thumb_angle), static_cast<double>(closing.index_angle)};
@@ -401,7 +400,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   // What holding takes of a plausible grip: the worst effort, and `fills`. Nothing of any other, and in a scene without efforts.
   std::optional<Real> put_efforts(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
                                   std::span<FillEffort> fills) const {
-    if (!has_effort_ || !is_plausible(answer)) return std::nullopt;
+    if (!has_effort_ || !wholehand::is_plausible(answer.status)) return std::nullopt;
     const HeldHand hand = held_hand(entry, answer.posed, answer.touch_mask, answer.closing.gap);
     const bool of_tips = row.fields.has(FIELD_TIPS_WORST_EFFORT) || row.fields.has(FIELD_LARGEST_HOLD);
     const GripLoads loads = states_.loads(entry, {answer.closing.direction, answer.closing.midpoint, is_antipodal(answer)});
@@ -485,7 +484,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
                           answer.palm_depth, answer.closing.closure, scene_.arm ? std::optional(answer.wrist.share) : std::nullopt};
     const auto terms = states_.score_terms(hand, largest, entry.force.max);
     for (int k = 0; k < 6; ++k) row.put(FIELD_TERMS, k, terms[k]);
-    const std::uint32_t status = answer.status | (is_not_held(is_plausible(answer), largest) ? STATUS_NOT_HELD : 0u);
+    const std::uint32_t status =
+        answer.status | (is_not_held(wholehand::is_plausible(answer.status), largest) ? STATUS_NOT_HELD : 0u);
     row.put_mask(FIELD_STATUS, status);
     row.put(FIELD_SCORE, 0, wholehand::is_eligible(status) ? states_.weighted(terms) : Real(0));
   }

@@ -11,6 +11,7 @@
 #include "core/planes.h"
 #include "core/tolerances.h"
 #include "evidence/load_floors.h"
+#include "shaders/status.h"
 
 namespace wholehand {
 namespace {
@@ -392,7 +393,7 @@ std::vector<char> Comparer::add_outcomes(std::size_t vessel, const GatheredPlane
   Comparison& outcomes = row("whole", "discrete outcomes", "grips");
   for (std::size_t i = 0; i < left_out.size(); ++i) {
     ++grips_;
-    feasible_ += (truth.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE ? 1 : 0;
+    feasible_ += is_feasible(truth.uint(FIELD_STATUS, i)) ? 1 : 0;
     // by the core, or by a side where the core's own answer is that near to grazing: a side alone may not take a grip out
     if (grazes(truth, i) || (spread.may_graze[i] != 0 && (grazes(a, i) || grazes(b, i)))) {
       ++grazing_;
@@ -504,7 +505,7 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
   Comparison& safe = row("force", SAFE_TILT, "mN");
   const std::size_t tilts = scene_.tilts.size();
   for (std::size_t i = 0; i < a.count; ++i) {
-    if (left_out[i] != 0 || (a.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) != REASON_NONE) continue;
+    if (left_out[i] != 0 || !is_feasible(a.uint(FIELD_STATUS, i))) continue;
     ++peak.compared;
     ++safe.compared;
     double peak_over = 0, safe_over = 0;

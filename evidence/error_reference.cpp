@@ -17,6 +17,7 @@
 #include "core/sobol.h"
 #include "core/touch.h"
 #include "evidence/compare.h"
+#include "shaders/status.h"
 
 namespace wholehand {
 namespace {
@@ -34,8 +35,6 @@ constexpr HandQuantity HAND_QUANTITIES[] = {
     {ERROR_EFFORT, "worst_effort", 1, true}, {ERROR_TIPS_EFFORT, "tips_worst_effort", 1, true},
     {ERROR_PUSH, "push", 1, true},           {ERROR_FRICTION_NEEDED, "friction_needed", 1, true},
 };
-
-bool is_feasible_status(std::uint32_t status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
 
 // The errors of one quantity, with their places.
 struct QuantityErrors {
@@ -116,9 +115,9 @@ ErrorReference::ErrorReference(const Scene& scene, const std::vector<std::vector
     true_liquid_.push_back(backend.liquid(v));
     for (std::size_t i = 0; i < grips[v].size(); ++i) {
       const std::uint32_t status = truth_[v].uint(FIELD_STATUS, i);
-      feasible_ += is_feasible_status(status) ? 1 : 0;
-      grazing_ += is_feasible_status(status) && (status & STATUS_GRAZING) != 0 ? 1 : 0;
-      if (!is_feasible_status(status)) continue;
+      feasible_ += is_feasible(status) ? 1 : 0;
+      grazing_ += is_feasible(status) && (status & STATUS_GRAZING) != 0 ? 1 : 0;
+      if (!is_feasible(status)) continue;
       for (int j = 0; j < JOINT_COUNT; ++j) {
         const FieldSet& fields = truth_[v].fields;
         if (!(std::abs(truth_[v].real(fields.plane[FIELD_SEPARATION] + j, i)) <= LATTICE_BAND)) continue;
@@ -142,8 +141,8 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
     row.grips += a.count;
     for (std::size_t i = 0; i < a.count; ++i) {
       const std::uint32_t status_a = a.uint(FIELD_STATUS, i), status_b = b.uint(FIELD_STATUS, i);
-      feasible_flips += is_feasible_status(status_a) != is_feasible_status(status_b) ? 1 : 0;
-      if (!is_feasible_status(status_a) || !is_feasible_status(status_b) || ((status_a | status_b) & STATUS_GRAZING) != 0) continue;
+      feasible_flips += is_feasible(status_a) != is_feasible(status_b) ? 1 : 0;
+      if (!is_feasible(status_a) || !is_feasible(status_b) || ((status_a | status_b) & STATUS_GRAZING) != 0) continue;
       errors[ERROR_CLOSURE].add(plane_difference(a, b, FIELD_CLOSURE, 1, i, false), v, i);
       errors[ERROR_GAP].add(1e6 * plane_difference(a, b, FIELD_GAP, 1, i, false), v, i);
       if (forces) {

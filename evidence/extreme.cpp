@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/fields.h"
 #include "host/grip_backend.h"
+#include "shaders/status.h"
 #include "sweeps/plan.h"
 #include "system/csv.h"
 
@@ -83,7 +84,7 @@ class ExtremeTally {
       const auto differs = [&](int field) { return own.uint(field, i) != full.uint(field, i); };
       const bool same = ((status ^ true_status) & ~std::uint32_t(STATUS_CONTACT_UNDECIDED)) == 0 && !differs(FIELD_TOUCH_MASK) &&
                         !differs(FIELD_USED_MASK);
-      const bool feasible = (true_status & STATUS_REASON_MASK) == REASON_NONE;
+      const bool feasible = is_feasible(true_status);
       compared[i] = same && feasible && ((status | true_status) & STATUS_GRAZING) == 0 ? 1 : 0;
     }
     const Misplaced misplaced =
@@ -154,11 +155,8 @@ class ExtremeTally {
   }
 
   void count_flip(const Flip& flip, const GatheredPlanes& own, const GatheredPlanes& full) {
-    const auto is_feasible = [&](const GatheredPlanes& planes) {
-      return (planes.uint(FIELD_STATUS, flip.grip) & STATUS_REASON_MASK) == REASON_NONE;
-    };
     const std::uint64_t outside = flip.inside ? 0 : 1;
-    if (is_feasible(own) != is_feasible(full)) {
+    if (is_feasible(own.uint(FIELD_STATUS, flip.grip)) != is_feasible(full.uint(FIELD_STATUS, flip.grip))) {
       ++row_.feasible_flips;
       row_.feasible_flips_outside += outside;
     } else if (own.uint(FIELD_TOUCH_MASK, flip.grip) != full.uint(FIELD_TOUCH_MASK, flip.grip)) {

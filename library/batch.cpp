@@ -11,6 +11,7 @@
 #include "library/scene.h"
 #include "library/status.h"
 #include "scene/ranges.h"
+#include "shaders/status.h"
 #include "sweeps/variables.h"
 
 using namespace wholehand;
@@ -79,7 +80,7 @@ void write_values(const wh_batch& batch, const Variable& variable, const PlaneCh
         put(place, chunk.first + i, v, chunk.real(plane, i));
         continue;
       }
-      const bool exists = variable.always || (chunk.uint(status, i) & STATUS_REASON_MASK) == REASON_NONE;
+      const bool exists = variable.always || is_feasible(chunk.uint(status, i));
       put(place, chunk.first + i, v, exists ? variable.value(chunk.uint(plane, i)) : variable.missing);
     }
 }

@@ -16,6 +16,7 @@
 #include "python/bind.h"
 #include "python/columns.h"
 #include "python/scene.h"
+#include "shaders/status.h"
 #include "sweeps/different_grips.h"
 #include "sweeps/robust.h"
 
@@ -100,7 +101,7 @@ void put_words(const Output& output, const PlaneChunk& chunk, int status) {
   const Variable& variable = *output.variable;
   auto* to = static_cast<Number*>(output.data) + chunk.first;
   for (std::size_t i = 0; i < chunk.count; ++i) {
-    const bool exists = variable.always || (chunk.uint(status, i) & STATUS_REASON_MASK) == REASON_NONE;
+    const bool exists = variable.always || is_feasible(chunk.uint(status, i));
     to[i] = static_cast<Number>(exists ? variable.value(chunk.uint(output.plane, i)) : variable.missing);
   }
 }

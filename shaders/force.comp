@@ -16,6 +16,7 @@
 #include "force.glsl"
 #include "grips.glsl"
 #include "planes.glsl"
+#include "status.h"
 #include "trig.glsl"
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
@@ -58,7 +59,7 @@ Real torque_reference(Vec3 center, Vec3 midpoint) {
 Held held_by(uint grip) {
   Held held;
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  held.feasible = (status & STATUS_REASON_MASK) == REASON_NONE;
+  held.feasible = is_feasible(status);
   held.antipodal = (status & STATUS_ANTIPODAL) != 0u;
   // the frame of a tilt
   Real sa, ca, sb, cb;

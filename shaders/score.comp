@@ -15,7 +15,7 @@ void main() {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
   Real terms[6] = Real[](Real(0), Real(0), Real(0), Real(0), Real(0), Real(0));
   Real score = Real(0);
-  if ((status & STATUS_REASON_MASK) == REASON_NONE) {
+  if (is_feasible(status)) {
     terms[0] = fingers_term(bitCount(uint_out[uint(PLANE_USED_MASK) * push.stride + grip]));
     terms[1] = contacts_term(bitCount(uint_out[uint(PLANE_TOUCH_MASK) * push.stride + grip]));
     terms[2] = depth_term(real_out[uint(PLANE_PHALANX_DEPTH) * push.stride + grip], real_out[uint(PLANE_PALM_DEPTH) * push.stride + grip]);

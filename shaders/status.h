@@ -16,6 +16,9 @@ namespace wholehand {
 #define STATUS_WORD uint
 #endif
 
+// Whether the hand closes on the vessel: what else there is of a grip exists for these alone.
+STATUS_QUESTION is_feasible(STATUS_WORD status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
+
 // Feasible, nowhere too deep, above the table and within reach of the wrist: efforts are computed of these grips.
 STATUS_QUESTION is_plausible(STATUS_WORD status) {
   return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) == STATUS_PLAUSIBLE;

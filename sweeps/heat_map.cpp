@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "shaders/status.h"
 #include "sweeps/variables.h"
 
 namespace wholehand {
@@ -54,7 +55,7 @@ void HeatMap::add(const Plan& plan, const PlaneChunk& chunk, const FieldSet& fie
   plan.coordinates(PLACE_HEIGHT, chunk.first, chunk.count, height_values_.data());
   plan.coordinates(PLACE_ROLL, chunk.first, chunk.count, roll_values_.data());
   for (std::size_t i = 0; i < chunk.count; ++i) {
-    if ((chunk.uint(fields.plane[FIELD_STATUS], i) & STATUS_REASON_MASK) != REASON_NONE) continue;
+    if (!is_feasible(chunk.uint(fields.plane[FIELD_STATUS], i))) continue;
     const double score = chunk.real(fields.plane[FIELD_SCORE], i);
     raise(heights_.cell(height_values_[i]) * rolls_.cells() + rolls_.cell(roll_values_[i]), score);
   }

@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "shaders/layout.h"
+#include "shaders/status.h"
 #include "sweeps/guarded_file.h"
 #include "sweeps/hdf5_file.h"
 #include "system/clock.h"
@@ -199,7 +200,7 @@ const void* ResultFile::plane_values(const Block& block, std::size_t plane, cons
   auto* words = reinterpret_cast<std::int32_t*>(buffer_.data());
   auto* bytes = reinterpret_cast<std::int8_t*>(buffer_.data());
   for (std::size_t i = 0; i < chunk.count; ++i) {
-    const bool exists = variable.always || (status[i] & STATUS_REASON_MASK) == REASON_NONE;
+    const bool exists = variable.always || is_feasible(status[i]);
     const std::int32_t value = exists ? variable.value(chunk.uints[start + i]) : variable.missing;
     if (variable.type == NumberType::word) {
       words[i] = value;
