@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/closure.h"
+#include "core/joint_names.h"
 #include "core/joints.h"
 #include "core/load.h"
 #include "core/mirror.h"
@@ -18,38 +19,6 @@ using core_f64::Mat3;
 using core_f64::Vec3;
 
 constexpr double NO_BONE = 1e-9;  // m: shorter ones have no direction
-
-struct JointName {
-  const char* webxr;
-  const char* openxr;
-};
-
-constexpr std::array<JointName, JOINT_COUNT> JOINT_NAMES{{
-    {"thumb-metacarpal", "XR_HAND_JOINT_THUMB_METACARPAL_EXT"},
-    {"thumb-phalanx-proximal", "XR_HAND_JOINT_THUMB_PROXIMAL_EXT"},
-    {"thumb-phalanx-distal", "XR_HAND_JOINT_THUMB_DISTAL_EXT"},
-    {"thumb-tip", "XR_HAND_JOINT_THUMB_TIP_EXT"},
-    {"index-finger-metacarpal", "XR_HAND_JOINT_INDEX_METACARPAL_EXT"},
-    {"index-finger-phalanx-proximal", "XR_HAND_JOINT_INDEX_PROXIMAL_EXT"},
-    {"index-finger-phalanx-intermediate", "XR_HAND_JOINT_INDEX_INTERMEDIATE_EXT"},
-    {"index-finger-phalanx-distal", "XR_HAND_JOINT_INDEX_DISTAL_EXT"},
-    {"index-finger-tip", "XR_HAND_JOINT_INDEX_TIP_EXT"},
-    {"middle-finger-metacarpal", "XR_HAND_JOINT_MIDDLE_METACARPAL_EXT"},
-    {"middle-finger-phalanx-proximal", "XR_HAND_JOINT_MIDDLE_PROXIMAL_EXT"},
-    {"middle-finger-phalanx-intermediate", "XR_HAND_JOINT_MIDDLE_INTERMEDIATE_EXT"},
-    {"middle-finger-phalanx-distal", "XR_HAND_JOINT_MIDDLE_DISTAL_EXT"},
-    {"middle-finger-tip", "XR_HAND_JOINT_MIDDLE_TIP_EXT"},
-    {"ring-finger-metacarpal", "XR_HAND_JOINT_RING_METACARPAL_EXT"},
-    {"ring-finger-phalanx-proximal", "XR_HAND_JOINT_RING_PROXIMAL_EXT"},
-    {"ring-finger-phalanx-intermediate", "XR_HAND_JOINT_RING_INTERMEDIATE_EXT"},
-    {"ring-finger-phalanx-distal", "XR_HAND_JOINT_RING_DISTAL_EXT"},
-    {"ring-finger-tip", "XR_HAND_JOINT_RING_TIP_EXT"},
-    {"pinky-finger-metacarpal", "XR_HAND_JOINT_LITTLE_METACARPAL_EXT"},
-    {"pinky-finger-phalanx-proximal", "XR_HAND_JOINT_LITTLE_PROXIMAL_EXT"},
-    {"pinky-finger-phalanx-intermediate", "XR_HAND_JOINT_LITTLE_INTERMEDIATE_EXT"},
-    {"pinky-finger-phalanx-distal", "XR_HAND_JOINT_LITTLE_DISTAL_EXT"},
-    {"pinky-finger-tip", "XR_HAND_JOINT_LITTLE_TIP_EXT"},
-}};
 
 // The joint's frame from the direction towards its finger's base and the axis about which the finger bends. A bone that lies along that
 // axis (a point that moved on its own, pose paper) keeps the back of the hand instead.
@@ -71,9 +40,6 @@ core_f64::Placement find_placement(const HandData& hand, const core_f64::Hand& r
 }
 
 }  // namespace
-
-const char* webxr_name(int joint) { return JOINT_NAMES[joint].webxr; }
-const char* openxr_name(int joint) { return JOINT_NAMES[joint].openxr; }
 
 HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result) {
   const core_f64::Hand ready = core_f64::load_hand(prepare_hand(hand), hand);
@@ -107,8 +73,8 @@ HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Tr
         if (glm::length(bone) > NO_BONE) backward = glm::normalize(bone);
       }
       HandNode& node = nodes.joints[j];
-      node.name = webxr_name(j);
-      node.openxr = openxr_name(j);
+      node.name = JOINT_NAMES[j].webxr;
+      node.openxr = JOINT_NAMES[j].openxr;
       node.parent = k == 0 ? -1 : j - 1;
       node.position = points[j];
       node.rotation = quaternion_of(mirrored(joint_rotation(backward, bend_axis, back), hand.handedness));

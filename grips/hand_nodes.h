@@ -35,10 +35,6 @@ HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResu
 HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Triple& wrist, const Rotation& rotation,
                      const std::array<Triple, JOINT_COUNT>& points, double scale = 1);
 
-// A joint's names as HandNode has them.
-const char* webxr_name(int joint);
-const char* openxr_name(int joint);
-
 // A node's place relative to another's: what it takes to write it as that one's child.
 Triple relative_position(const HandNode& parent, const Triple& position);
 Quaternion relative_rotation(const HandNode& parent, const Quaternion& rotation);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/joint_names.h"
 #include "core/joints.h"
 #include "core/text.h"
 #include "grips/report.h"
@@ -14,14 +15,6 @@
 
 namespace wholehand {
 namespace {
-
-constexpr std::array<const char*, 4> THUMB_JOINTS{"CMC", "MCP", "IP", "tip"};
-constexpr std::array<const char*, 5> FINGER_JOINTS{"CMC", "MCP", "PIP", "DIP", "tip"};
-
-std::string joint_name(int j) {
-  const int f = finger_of(j), k = j - finger_start(f);
-  return fmt::format("{} {}", FINGER_NAMES[f], f == 0 ? THUMB_JOINTS[k] : FINGER_JOINTS[k]);
-}
 
 // `digits` behind the point, or what is known where lengths are known to `report.length_error`: what lengths enter has no more.
 std::string known(const GripReport& report, double value, int digits) {
@@ -111,7 +104,7 @@ void write_joints(std::string& out, const GripReport& report) {
                        : has(r.finger_mask) ? ", projected: finger"
                        : has(r.inner_mask)  ? ", projected: inner"
                                             : "";
-    append_formatted(out, "  {:<13}{}{}{}{:>11}  {}{}\n", joint_name(j), millimetres(report, r.joints[j]),
+    append_formatted(out, "  {:<13}{}{}{}{:>11}  {}{}\n", JOINT_NAMES[j].paper, millimetres(report, r.joints[j]),
                      millimetres(report, r.posed[j]), millimetres(report, r.proxies[j]), known(report, r.separation[j] * 1e3, 4),
                      has(r.touch_mask) ? "touches" : "-", role);
   }
@@ -159,7 +152,7 @@ std::string percent(double effort) {
 
 std::string contact_name(const HeldContact& contact) {
   const std::string place = contact.between > 0 ? fmt::format(" bone {}", contact.between) : "";
-  return joint_name(contact.joint) + place + (contact.digit == FINGER_COUNT ? ", palm" : "");
+  return JOINT_NAMES[contact.joint].paper + place + (contact.digit == FINGER_COUNT ? ", palm" : "");
 }
 
 // What does not come from what answers the rest.

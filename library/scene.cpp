@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/joint_names.h"
 #include "core/planes.h"
 #include "core/vectors.h"
-#include "grips/hand_nodes.h"
 #include "library/status.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
@@ -130,4 +130,4 @@ const char* wh_reason_name(int reason) {
   return reason >= 0 && reason < static_cast<int>(REASON_NAMES.size()) ? REASON_NAMES[static_cast<std::size_t>(reason)] : nullptr;
 }
 
-const char* wh_joint_name(int joint) { return joint >= 0 && joint < JOINT_COUNT ? openxr_name(joint) : nullptr; }
+const char* wh_joint_name(int joint) { return joint >= 0 && joint < JOINT_COUNT ? JOINT_NAMES[joint].openxr : nullptr; }

@@ -9,21 +9,13 @@
 #include <cmath>
 
 #include "charts/field.h"
+#include "core/joint_names.h"
 #include "core/text.h"
-#include "grips/hand_nodes.h"
 #include "shaders/status.h"
 #include "system/readable.h"
 
 namespace wholehand {
 namespace {
-
-constexpr std::array<const char*, 5> FINGER_POINTS{"CMC", "MCP", "PIP", "DIP", "tip"};
-constexpr std::array<const char*, 4> THUMB_POINTS{"CMC", "MCP", "IP", "tip"};
-
-std::string point_name(int joint) {
-  const int finger = joint < finger_start(1) ? 0 : (joint + 1) / 5, k = joint - finger_start(finger);
-  return fmt::format("{} {}", FINGER_NAMES[finger], finger == 0 ? THUMB_POINTS[k] : FINGER_POINTS[k]);
-}
 
 std::string r_text(const Correlation& correlation) {
   return correlation.r ? shown_number(*correlation.r, 2) : std::string("none, ") + words_of(correlation.lack);
@@ -83,7 +75,7 @@ FieldChart points_chart(const GuidanceStatistics& statistics) {
   chart.scale = {"touches in (%)", 0, 100, 0, 0};
   // the thumb on top
   for (int joint = JOINT_COUNT - 1; joint >= 0; --joint) {
-    chart.rows.push_back(point_name(joint));
+    chart.rows.push_back(JOINT_NAMES[joint].paper);
     chart.y_edges.push_back(JOINT_COUNT - 1 - joint);
     for (const DistanceBin& bin : statistics.bins) put_value(chart, bin, bin.touching[joint]);
   }
@@ -122,7 +114,8 @@ void write_point_table(MarkupWriter& html, const GuidanceStatistics& statistics,
                   {"point", "touches (%)", "mean distance when touching (mm)", "mean distance when free (mm)", "point-biserial r"});
   for (int j = 0; j < JOINT_COUNT; ++j) {
     const PointTouch& point = statistics.points[j];
-    table.row({point_name(j), shown_number(100.0 * static_cast<double>(point.touching) / static_cast<double>(statistics.grips), 1),
+    table.row({JOINT_NAMES[j].paper,
+               shown_number(100.0 * static_cast<double>(point.touching) / static_cast<double>(statistics.grips), 1),
                in_mm(point.distance_touching), in_mm(point.distance_free),
                point.correlation.r ? shown_number(*point.correlation.r, 2) : words_of(point.correlation.lack)});
   }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/joints.h"
+#include "core/joint_names.h"
 #include "core/text.h"
 #include "report/html.h"
 #include "studies/words.h"
@@ -96,7 +96,7 @@ void write_point_table(MarkupWriter& html, const Found& found, const std::string
       fmt::format("The points of the hand on {}, pose {}", vessel == ALL_VESSELS ? "all vessels of the sample" : vessel, pose),
       {"point", "touches", "with the height", "with the distance"}, {2, 3});
   for (int joint = 0; joint < JOINT_COUNT; ++joint) {
-    const std::string point = hand_point_name(joint);
+    const std::string point = joint_key(joint);
     const StudyRow& touches = found.at(vessel, "touch_share", point);
     table.row({point, value_text(touches, true), worded(found.at(vessel, "point_biserial_height", point), touches.value),
                worded(found.at(vessel, "point_biserial_distance", point), touches.value)});

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "studies/contact_tally.h"
+#include "core/joint_names.h"
 
 #include <fmt/format.h>
 
 #include <bit>
 #include <limits>
 
-#include "core/joints.h"
-
 namespace wholehand {
 namespace {
 
-constexpr std::array<const char*, 5> FINGER_POINTS{"cmc", "mcp", "pip", "dip", "tip"};
-constexpr std::array<const char*, 4> THUMB_POINTS{"cmc", "mcp", "ip", "tip"};
 // m: distances that differ by less do not vary. Each is off by what the search for its contact leaves: its tolerance, 1e-9 m, and
 // up to some ten times that where a fingertip meets the vessel at a flat angle. What hands scatter by is a thousand times larger.
 constexpr double LEAST_DISTANCE = 1e-7;
@@ -29,16 +26,11 @@ std::vector<ContactStatistic> all_statistics() {
                            "grasps_projected_tip_share", "grasps_projected_finger_share", "grasps_projected_inner_share"})
     all.push_back({name, ""});
   for (const char* name : {"touch_share", "point_biserial_height", "point_biserial_distance"})
-    for (int joint = 0; joint < JOINT_COUNT; ++joint) all.push_back({name, hand_point_name(joint)});
+    for (int joint = 0; joint < JOINT_COUNT; ++joint) all.push_back({name, joint_key(joint)});
   return all;
 }
 
 }  // namespace
-
-std::string hand_point_name(int joint) {
-  const int digit = finger_of(joint), k = joint - finger_start(digit);
-  return fmt::format("{}_{}", FINGER_NAMES[digit], digit == 0 ? THUMB_POINTS[k] : FINGER_POINTS[k]);
-}
 
 const std::vector<ContactStatistic>& contact_statistics() {
   static const std::vector<ContactStatistic> all = all_statistics();

@@ -24,9 +24,6 @@ struct ContactGrasp {
   bool is_plausible = false;                                    // and no part of the hand is deep in the vessel
 };
 
-// "thumb_mcp", "index_dip".
-std::string hand_point_name(int joint);
-
 // What is said of grasps, in one order for all tallies. `subject`: the point of the hand, or empty.
 struct ContactStatistic {
   std::string name, subject;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/joint_names.h"
 #include "core/text.h"
 #include "objects/vessel.h"
 #include "shaders/layout.h"
@@ -209,12 +210,7 @@ class SweepDefinition : ResultDefinition {
 
   static Names joint_names() {
     Names names;
-    for (const char* joint : {"metacarpal", "proximal", "distal", "tip"}) names.push_back(fmt::format("thumb_{}", joint));
-    for (int finger = 1; finger < FINGER_COUNT; ++finger) {
-      for (const char* joint : {"metacarpal", "proximal", "intermediate", "distal", "tip"}) {
-        names.push_back(fmt::format("{}_{}", FINGER_NAMES[finger], joint));
-      }
-    }
+    for (int joint = 0; joint < JOINT_COUNT; ++joint) names.push_back(joint_key(joint));
     return names;
   }
 

@@ -7,6 +7,7 @@
 
 #include "advice/words.h"
 #include "core/error.h"
+#include "core/joint_names.h"
 #include "live/amounts.h"
 #include "scene/text.h"
 
@@ -36,8 +37,8 @@ HostPort parse_osc_url(const std::string& url) {
 
 OscStream::OscStream(const HostPort& target, const LiveScene& live)
     : live_(live), to_(find_udp_address(target, PLACE)), socket_(to_.family(), PLACE) {
-  for (int j = 0; j < JOINT_COUNT; ++j) joints_[j] = std::string("/wholehand/joint/") + openxr_name(j);
-  for (int j = 0; j < JOINT_COUNT; ++j) ghost_joints_[j] = std::string("/wholehand/advice/joint/") + openxr_name(j);
+  for (int j = 0; j < JOINT_COUNT; ++j) joints_[j] = std::string("/wholehand/joint/") + JOINT_NAMES[j].openxr;
+  for (int j = 0; j < JOINT_COUNT; ++j) ghost_joints_[j] = std::string("/wholehand/advice/joint/") + JOINT_NAMES[j].openxr;
   for (const VesselData& vessel : live.scene.vessels) {
     const std::string address = "/wholehand/vessel/" + vessel.name;
     vessels_.push_back({address + "/pose", address + "/liquid", {}});

@@ -9,6 +9,7 @@
 
 #include "core/closure.h"
 #include "core/contact.h"
+#include "core/joint_names.h"
 #include "core/joints.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
@@ -16,7 +17,6 @@
 #include "core/prepare.h"
 #include "core/printable.h"
 #include "core/vectors.h"
-#include "grips/hand_nodes.h"
 #include "live/hand_view.h"
 #include "system/json.h"
 #include "system/version.h"
@@ -78,7 +78,7 @@ Json joints_json(const HandData& hand) {
     for (int k = 0; k < finger_joints(f); ++k) {
       const int j = finger_start(f) + k;
       joints.push_back(
-          {{"name", webxr_name(j)}, {"parent", k == 0 ? -1 : j - 1}, {"radius", hand.scale * hand.fingers[f].radii[k]}});
+          {{"name", JOINT_NAMES[j].webxr}, {"parent", k == 0 ? -1 : j - 1}, {"radius", hand.scale * hand.fingers[f].radii[k]}});
     }
   }
   return joints;

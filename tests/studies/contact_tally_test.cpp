@@ -134,16 +134,5 @@ TEST(ContactTally, WeighsTheGraspsOfAnother) {
   }
 }
 
-TEST(ContactTally, NamesThePointsOfTheHand) {
-  EXPECT_EQ(hand_point_name(0), "thumb_cmc");
-  EXPECT_EQ(hand_point_name(1), "thumb_mcp");
-  EXPECT_EQ(hand_point_name(2), "thumb_ip");
-  EXPECT_EQ(hand_point_name(3), "thumb_tip");
-  EXPECT_EQ(hand_point_name(4), "index_cmc");
-  EXPECT_EQ(hand_point_name(7), "index_dip");
-  EXPECT_EQ(hand_point_name(20), "little_mcp");
-  EXPECT_EQ(hand_point_name(23), "little_tip");
-}
-
 }  // namespace
 }  // namespace wholehand

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scene of a view as the page gets it: what does not change while the frames come.
 // sanitizers: address
+#include "core/joint_names.h"
 #include "core/joints.h"
 #include "viewer/scene.h"
 
@@ -45,7 +46,7 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
     for (int k = 0; k < finger_joints(f); ++k) {
       const int j = finger_start(f) + k;
       const json& joint = seen["joints"][static_cast<std::size_t>(j)];
-      EXPECT_EQ(joint["name"], webxr_name(j));
+      EXPECT_EQ(joint["name"], JOINT_NAMES[j].webxr);
       EXPECT_EQ(joint["parent"], k == 0 ? -1 : j - 1);
       EXPECT_EQ(joint["radius"], scene.hand.fingers[f].radii[k]);
     }

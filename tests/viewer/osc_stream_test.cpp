@@ -2,6 +2,7 @@
 // A session as OSC: every frame against the ticks it was made of.
 // sanitizers: address
 #include "viewer/osc_stream.h"
+#include "core/joint_names.h"
 #include "core/joints.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +75,7 @@ void expect_frame(std::map<std::string, OscMessage> messages, const Scene& scene
   for (int f = 0; f < FINGER_COUNT; ++f) {
     for (int k = 0; k < finger_joints(f); ++k) {
       const int j = finger_start(f) + k;
-      const OscMessage joint = take(std::string("/wholehand/joint/") + openxr_name(j));
+      const OscMessage joint = take(std::string("/wholehand/joint/") + JOINT_NAMES[j].openxr);
       expect_place(joint, moment.hand.proxies[j]);
       EXPECT_EQ(whole(contacts, j), static_cast<int>(moment.hand.contact[j]));
       const Turn turn = turn_of(joint);
