@@ -16,7 +16,7 @@ namespace wholehand {
 // the log-likelihood (a ridge), and `has_ridge` says so.
 struct LogisticModel {
   std::vector<double> coefficients;
-  std::vector<double> errors;  // standard errors, by the curvature; NaN with a ridge, and of a term that does not vary
+  std::vector<double> errors;  // standard errors, by the curvature; NaN with a ridge, with bounds, and of a term that does not vary
   double intercept = 0;
   // False: there is no success, or no failure, or Newton's steps did not settle even with the ridge; the coefficients are 0.
   bool is_fitted = false;
@@ -27,7 +27,12 @@ struct LogisticModel {
   }
 };
 
+// With bounds of 0 Newton's steps are of those coefficients that are above them (an active set); the likelihood is concave, so its largest
+// place within the bounds is one.
+enum class Coefficients { any, not_negative };
+
 // `terms`: `count` numbers for each entry of `success`, one row after the other.
-LogisticModel fit_logistic_model(std::span<const double> terms, std::size_t count, std::span<const char> success);
+LogisticModel fit_logistic_model(std::span<const double> terms, std::size_t count, std::span<const char> success,
+                                 Coefficients allowed = Coefficients::any);
 
 }  // namespace wholehand

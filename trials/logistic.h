@@ -27,16 +27,13 @@ struct TermedGrip {
 };
 
 // log(p / (1 - p)) = intercept + sum of coefficient x term, at the largest likelihood for which each coefficient is at least
-// LEAST_WEIGHT of their sum (so that none is negative: no term of a score may lower it). By Newton's steps on the free ones of the
-// bounds' amounts (an active set); the likelihood is concave, so that one place is the largest. A term that does not vary gets the
-// least. Where successes and failures can be separated, or the terms depend on one another, the largest likelihood has no finite
-// place: then half a square of each amount, in units of its regressor's deviation, is taken off the log-likelihood (a ridge), and
-// `has_ridge` says so.
+// LEAST_WEIGHT of their sum (so that none is negative: no term of a score may lower it). A term that does not vary gets the least.
+// `has_ridge`: as of a LogisticModel (statistics/logistic.h), of the amounts by which the coefficients are above the least.
 struct LogisticFit {
   std::array<double, SCORE_TERM_COUNT> coefficients{};
   std::array<bool, SCORE_TERM_COUNT> is_least{};  // at the least share
   double intercept = 0;
-  bool is_fitted = false;  // false: there is no success, or no failure
+  bool is_fitted = false;  // as of a LogisticModel
   bool has_ridge = false;
 };
 LogisticFit fit_logistic(std::span<const TermedGrip> grips);

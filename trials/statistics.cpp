@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "core/random_bits.h"
+#include "statistics/resample.h"
 
 namespace wholehand {
 namespace {
@@ -56,19 +55,13 @@ std::vector<std::size_t> occurring_grips(std::span<const Prediction> predictions
 template <class Measure>
 Interval bootstrap_interval(const std::vector<std::size_t>& occurring, std::size_t grips, std::uint64_t seed,
                             const Measure& measure) {
-  std::vector<double> found, weights(grips);
-  std::uint64_t state = seed;
-  for (int resample = 0; resample < RESAMPLES; ++resample) {
+  const auto of_resample = [&, weights = std::vector<double>(grips)](std::span<const std::size_t> members) mutable {
     std::fill(weights.begin(), weights.end(), 0.0);
-    for (std::size_t k = 0; k < occurring.size(); ++k) {
-      const double at = unit_interval(split_mix(state)) * static_cast<double>(occurring.size());
-      weights[occurring[static_cast<std::size_t>(at)]] += 1;
-    }
-    const double value = measure(weights);
-    if (!std::isnan(value)) found.push_back(value);
-  }
-  if (2 * found.size() < RESAMPLES) return {};
-  return percentile_interval(found);
+    for (const std::size_t member : members) weights[occurring[member]] += 1;
+    return measure(weights);
+  };
+  const std::vector<double> found = resampled_values(occurring.size(), occurring.size(), RESAMPLES, seed, of_resample);
+  return 2 * found.size() < RESAMPLES ? Interval{} : percentile_interval(found);
 }
 
 }  // namespace
