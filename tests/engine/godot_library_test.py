@@ -10,8 +10,8 @@ import shutil
 import subprocess
 import unittest
 
-from support import (HERE, JOINTS, LIBRARIES, PATIENCE, EngineTest, environment, grip, inward, minus, own_copy, roll_of,
-                     rows_of, unit, wholehand)
+from harness import minus, run, unit
+from support import HERE, JOINTS, LIBRARIES, PATIENCE, EngineTest, environment, grip, inward, own_copy, roll_of, rows_of
 
 # Godot's Vector3 is of float32: half a unit of places below 0.25 m is 7.5e-9 m. Godot's own text of it adds less than 1e-15.
 FLOAT = 1e-8
@@ -146,8 +146,8 @@ class GodotLibrary(EngineTest):
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertNotIn("ERROR", done.stdout)
         tip = [float(x) for x in re.search(r"tip (.*)", done.stdout).group(1).split()]
-        known = json.loads(wholehand("grip", "mixing_board", "--vessel", "beaker1", "--height-mm=60",
-                                     "--roll-deg=-22.918311805232932", "--json"))
+        known = json.loads(run("grip", "mixing_board", "--vessel", "beaker1", "--height-mm=60",
+                               "--roll-deg=-22.918311805232932", "--json"))
         self.assertLess(math.dist(tip, known["posed_m"][8]), FLOAT)
 
     def test_the_project_runs(self):

@@ -15,8 +15,8 @@ import unittest
 
 from netCDF4 import Dataset
 
-from support import (JOINTS, PATIENCE, PROGRAM, EngineTest, distance, environment, grip, inward, minus, own_copy, roll_of, rows_of,
-                     unit)
+from harness import PROGRAM, minus, unit
+from support import JOINTS, PATIENCE, EngineTest, distance, environment, grip, inward, own_copy, roll_of, rows_of
 
 SECONDS = 3.5  # of the session: the simulated user holds the beaker after 2 s
 HELD = {"lift", "tilt", "maintain"}

@@ -6,17 +6,16 @@ import json
 import math
 import os
 import shutil
-import subprocess
 import tempfile
 import unittest
 
+from harness import SOURCE, STAGED, cross, dot, minus, run, unit
+
 HERE = os.path.dirname(os.path.abspath(__file__))
-EXAMPLES = os.path.join(HERE, "../../examples")
+EXAMPLES = os.path.join(SOURCE, "examples")
 PATIENCE = 120  # s: on however busy a machine
 
 # What the packages install, unpacked in one folder.
-STAGED = os.environ["STAGED"]
-PROGRAM = f"{STAGED}/usr/bin/wholehand"
 INCLUDE = f"{STAGED}/usr/include"
 LIBRARIES = os.path.dirname(glob.glob(f"{STAGED}/usr/lib/*/libwholehand.so")[0])
 
@@ -62,17 +61,9 @@ def environment(folder):
             "LANG": "en_US.UTF-8", "LC_ALL": "en_US.UTF-8", "LD_LIBRARY_PATH": LIBRARIES}
 
 
-def wholehand(*arguments, folder=None):
-    """The standard output of a command that must go well."""
-    done = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, timeout=PATIENCE)
-    if done.returncode:
-        raise AssertionError(f"wholehand {' '.join(arguments)}: {done.returncode}: {done.stderr}")
-    return done.stdout
-
-
 def grip(scene, *options):
     """What `wholehand grip --json` says of a grip of the beaker."""
-    return json.loads(wholehand("grip", scene, "--vessel", "beaker", "--json", *options))
+    return json.loads(run("grip", scene, "--vessel", "beaker", "--json", *options))
 
 
 def own_copy(example, folder):
@@ -81,24 +72,7 @@ def own_copy(example, folder):
     return shutil.copytree(os.path.join(EXAMPLES, example), os.path.join(folder, example), ignore=built)
 
 
-# ---- geometry: vectors are lists, rotations are rows ----
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def minus(a, b):
-    return [x - y for x, y in zip(a, b)]
-
-
-def unit(a):
-    length = math.sqrt(dot(a, a))
-    return [x / length for x in a]
-
+# ---- geometry: rotations are rows ----
 
 def distance(a, b):
     return math.dist(a, b)

@@ -8,8 +8,8 @@ import re
 import subprocess
 import unittest
 
-from support import (EXAMPLES, HERE, INCLUDE, JOINTS, PATIENCE, PROGRAM, EngineTest, distance, dot, environment, grip, inward,
-                     minus, roll_of, rows_of, unit, wholehand)
+from harness import PROGRAM, dot, minus, run, unit
+from support import (EXAMPLES, HERE, INCLUDE, JOINTS, PATIENCE, EngineTest, distance, environment, grip, inward, roll_of, rows_of)
 
 MIRROR = [1, 1, -1]  # from wholehand's axes to Unity's and back
 
@@ -88,8 +88,8 @@ class Unity(EngineTest):
             file.write("static class Docs {\n  static void Main() {\n" + lines[:-len("    }\n")] + last + "  }\n}\n")
         self.run_well("mcs", "-unsafe", "-warn:4", "-warnaserror", "-out:docs.exe", "docs.cs", *self.sources)
         tip = [float(x) for x in self.run_well("mono", "docs.exe").split()]
-        known = json.loads(wholehand("grip", "mixing_board", "--vessel", "beaker1", "--height-mm=60",
-                                     "--roll-deg=-22.918311805232932", "--json"))
+        known = json.loads(run("grip", "mixing_board", "--vessel", "beaker1", "--height-mm=60",
+                               "--roll-deg=-22.918311805232932", "--json"))
         self.assertLess(distance([MIRROR[k] * tip[k] for k in range(3)], known["posed_m"][8]), 1e-9)
 
     @classmethod

@@ -11,8 +11,8 @@ import tempfile
 import time
 import unittest
 
-STAGED = os.environ["STAGED"]
-PROGRAM = os.path.join(STAGED, "usr/bin/wholehand")
+from harness import STAGED, all_commands, ask, commands, help_of, run
+
 SHARE = os.path.join(STAGED, "usr/share")
 BASH_SCRIPT = os.path.join(SHARE, "bash-completion/completions/wholehand")
 FOLDER = ["a b.toml", "mine.toml", "result.nc", "notes.txt", "list.csv", "folder/inner.nc"]  # files that a shell sees
@@ -44,32 +44,12 @@ def in_shell(*command):
     return subprocess.run(command, cwd=folder.name, env=environment(), capture_output=True, text=True)
 
 
-def program(*words):
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True)
-
-
-def help_of(*words):
-    return program(*words, "--help").stdout
-
-
-def commands(*words):
-    part = re.search(r"^Subcommands:\n((?:  .*\n)+)", help_of(*words), re.MULTILINE)
-    return re.findall(r"^  (\S+)", part[1], re.MULTILINE) if part else []
-
-
-def all_commands():
-    found = [()]
-    for words in found:
-        found += [(*words, name) for name in commands(*words)]
-    return found
-
-
 def options(words):
     return {name for names in re.findall(r"^  (-\S+)", help_of(*words), re.MULTILINE) for name in names.split(",")}
 
 
 def scenes():
-    return re.findall(r"^(\S+)", program("scenes").stdout, re.MULTILINE)
+    return re.findall(r"^(\S+)", run("scenes"), re.MULTILINE)
 
 
 def bash_run(text, *arguments):
@@ -152,7 +132,7 @@ class Bash(unittest.TestCase):
             if option in ("--on", "--advise-on"):  # besides the names of devices
                 self.assertLessEqual(set(words), {"auto", "core", "vulkan"})
                 continue
-            message = program(command, *needed[command], option, "nonsense").stderr
+            message = ask(command, *needed[command], option, "nonsense").stderr
             allowed = re.search(r"allowed: (.*)", message)
             self.assertTrue(allowed, message)
             names = re.findall(r"[^\s,;]+", re.sub(r"; .*", "", allowed[1]))

@@ -9,14 +9,9 @@ import subprocess
 import tempfile
 import unittest
 
-STAGED = os.environ["STAGED"]
+from harness import SOURCE, STAGED, text
+
 HAS_PYTHON = os.environ["WHOLEHAND_PYTHON"] == "ON"  # of the build
-SOURCE = os.path.join(os.path.dirname(__file__), "../..")
-
-
-def text(path):
-    with open(path) as file:
-        return file.read()
 
 
 VERSION = re.search(r"^project\(wholehand VERSION (\S+)", text(SOURCE + "/CMakeLists.txt"), re.MULTILINE)[1] + "-1"

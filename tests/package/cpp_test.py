@@ -9,15 +9,10 @@ import subprocess
 import tempfile
 import unittest
 
-STAGED = os.environ["STAGED"]
-SOURCE = os.path.join(os.path.dirname(__file__), "../..")
+from harness import SOURCE, STAGED, text
+
 EXAMPLES = os.path.join(SOURCE, "examples/cpp")
 HEADERS = os.path.join(STAGED, "usr/include/wholehand/cpp")
-
-
-def text(path):
-    with open(path) as file:
-        return file.read()
 
 
 def run(*command, **options):

@@ -9,32 +9,11 @@ import subprocess
 import tempfile
 import unittest
 
-STAGED = os.environ["STAGED"]
-PROGRAM = os.path.join(STAGED, "usr/bin/wholehand")
+from harness import PROGRAM, SOURCE, STAGED, all_commands, help_of, run
+
 PAGES = os.path.join(STAGED, "usr/share/man/man1")
-SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../cmake/package/manual.sh")
+SCRIPT = os.path.join(SOURCE, "cmake/package/manual.sh")
 WIDE = 1000  # columns: few lines are broken
-
-
-def help_of(*words):
-    return subprocess.run([PROGRAM, *words, "--help"], check=True, capture_output=True, text=True).stdout
-
-
-def help_version():
-    return subprocess.run([PROGRAM, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
-
-
-def commands(*words):
-    part = re.search(r"^Subcommands:\n((?:  .*\n)+)", help_of(*words), re.MULTILINE)
-    return re.findall(r"^  (\S+)", part[1], re.MULTILINE) if part else []
-
-
-def all_commands():
-    """The words of each command, the program's own first: (), ("sweep",), ("stability", "wall") ..."""
-    found = [()]
-    for words in found:
-        found += [(*words, name) for name in commands(*words)]
-    return found
 
 
 def page_of(words):
@@ -54,7 +33,7 @@ class Manual(unittest.TestCase):
     def test_pages_are_the_same_wherever_the_build_folder_lies(self):
         with tempfile.TemporaryDirectory(prefix="it's a folder ") as folder:
             os.symlink(os.path.realpath(PROGRAM), folder + "/a program")
-            version = help_version()
+            version = run("--version").split()[1]
             subprocess.run(["sh", SCRIPT, "a program", version, "man pages"], cwd=folder, check=True)
             for words in all_commands():
                 theirs = folder + "/man pages/" + os.path.basename(page_of(words))

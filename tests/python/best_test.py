@@ -10,7 +10,8 @@ import numpy as np
 import wholehand as wh
 import xarray as xr
 
-from installed import MESH, SEVERAL, SOBOL, InFolder, complaint, run, tube_ply
+from harness import complaint, run
+from installed import MESH, SEVERAL, SOBOL, InFolder, tube_ply
 
 # a canister of 5.5 kg
 HEAVY = """[[vessel]]

@@ -6,7 +6,8 @@ import unittest
 
 import wholehand as wh
 
-from installed import InFolder, complaint, run
+from harness import complaint, run
+from installed import InFolder
 
 
 class TheCheck(InFolder):

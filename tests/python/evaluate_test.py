@@ -12,7 +12,8 @@ import numpy as np
 import wholehand as wh
 import xarray as xr
 
-from installed import MESH, SEVERAL, SOBOL, InFolder, run, tube_ply
+from harness import run
+from installed import MESH, SEVERAL, SOBOL, InFolder, tube_ply
 
 NAMES = ["height", "azimuth", "obliquity", "roll", "offset", "hand_scale"]
 

@@ -9,7 +9,8 @@ import unittest
 import numpy as np
 import wholehand as wh
 
-from installed import MESH, SEVERAL, InFolder, complaint, run, tube_ply
+from harness import complaint, run
+from installed import MESH, SEVERAL, InFolder, tube_ply
 
 AT = {"height_mm": 40.5, "azimuth_deg": 12, "obliquity_deg": -5, "roll_deg": -33, "offset_mm": 3, "hand_scale": 0.95}
 

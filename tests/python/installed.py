@@ -4,29 +4,14 @@
 import contextlib
 import math
 import os
-import subprocess
 import tempfile
 import unittest
 
 import wholehand as wh
 
-STAGED = os.environ["STAGED"]
-PROGRAM = os.path.join(STAGED, "usr/bin/wholehand")
+from harness import STAGED
+
 assert wh.__file__.startswith(os.path.join(STAGED, "usr/lib/python3/dist-packages")), wh.__file__
-
-
-def run(*arguments, code=0, folder=None):
-    """The program's standard output; `code` is how it has to end."""
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=folder)
-    assert done.returncode == code, (done.returncode, done.stderr)
-    return done.stdout
-
-
-def complaint(*arguments, folder=None):
-    """Exit code and last line of what the program says as it refuses."""
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=folder)
-    assert done.returncode != 0, arguments
-    return done.returncode, done.stderr.splitlines()[-1].removeprefix("wholehand: ")
 
 
 class InFolder(unittest.TestCase):

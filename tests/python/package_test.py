@@ -14,7 +14,8 @@ import unittest
 
 import wholehand as wh
 
-from installed import InFolder, run
+from harness import run
+from installed import InFolder
 
 USER = """
 from pathlib import Path

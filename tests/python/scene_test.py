@@ -9,7 +9,8 @@ import unittest
 import numpy as np
 import wholehand as wh
 
-from installed import MESH, SEVERAL, InFolder, complaint, run, tube_ply
+from harness import complaint, run
+from installed import MESH, SEVERAL, InFolder, tube_ply
 
 
 class Scenes(InFolder):

@@ -9,7 +9,8 @@ import numpy as np
 import wholehand as wh
 import xarray as xr
 
-from installed import SEVERAL, InFolder, complaint, run
+from harness import complaint, run
+from installed import SEVERAL, InFolder
 
 OPEN = 0.12
 

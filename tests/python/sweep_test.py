@@ -17,7 +17,8 @@ import numpy as np
 import wholehand as wh
 import xarray as xr
 
-from installed import MESH, PROGRAM, SEVERAL, SOBOL, InFolder, complaint, run, tube_ply
+from harness import PROGRAM, complaint, run
+from installed import MESH, SEVERAL, SOBOL, InFolder, tube_ply
 
 OF_THE_RUN = {"wall_time_s", "kernel_time_s"}
 

@@ -3,23 +3,19 @@
 
 import csv
 import os
-import subprocess
 import tempfile
 import unittest
 
 import numpy
 from scipy import stats
 
-PROGRAM = os.environ["WHOLEHAND_PROGRAM"]
+from harness import run
+
 PEOPLE = range(5)
 VESSELS = ["beaker1", "beaker2", "beaker3"]
 # session.csv has nine digits. A correlation and an F lose up to three of them to differences of nearly equal numbers.
 DIGITS = 1e-8
 AFTER_DIFFERENCES = 1e-5
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
 
 
 def number(text):

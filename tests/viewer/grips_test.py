@@ -5,7 +5,8 @@ import json
 import math
 import os
 
-from support import ViewerTest, color_at, drawn, main, projected, slide, still, turned_back, minus, wholehand
+from harness import minus, run
+from support import ViewerTest, color_at, drawn, main, projected, slide, still, turned_back
 
 GRIP = ["three_beakers", "--vessel", "beaker1", "--height-mm", "58.5", "--roll-deg", "22"]
 DIGITS = 2e-7     # m: frames have the digits of a float, of places up to a metre
@@ -36,7 +37,7 @@ class AGrip(ViewerTest):
         self.assertEqual([request for request in page.requests if not request.startswith(self.grip.address)], [])
 
     def test_joints_are_where_grip_json_says(self):
-        told = json.loads(wholehand("grip", *GRIP, "--json"))
+        told = json.loads(run("grip", *GRIP, "--json"))
         page = self.open(self.grip)
         for tilt in [0, 40]:
             slide(page, "tilt", tilt)
@@ -131,7 +132,7 @@ class AGrip(ViewerTest):
     def test_sliders_show_liquid_and_force_at_once(self):
         page = self.open(self.grip)
         for fill, tilt in [(0.5, 60), (0.75, 30)]:
-            told = json.loads(wholehand("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", str(tilt)))["states"][0]
+            told = json.loads(run("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", str(tilt)))["states"][0]
             slide(page, "fill", fill)
             slide(page, "tilt", tilt)
             page.wait(f"Math.abs(wholehand.frame.tilt - {math.radians(tilt)}) < 1e-6 && "
@@ -149,7 +150,7 @@ class AGrip(ViewerTest):
         page.wait("wholehand.charts.records.length > 0", what="the curve")
         records = page.evaluate("wholehand.charts.records.map(({x, feedback, hold}) => [x, feedback, hold])")
         tilts = [f"{record[0]:.9g}" for record in records]
-        told = json.loads(wholehand("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", *tilts))["states"]
+        told = json.loads(run("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", *tilts))["states"]
         for record, state in zip(records, told):
             hold = STRENGTH * state["effort"]
             self.assertAlmostEqual(record[1], state["feedback_force_N"], delta=1e-4, msg=f"{record[0]} degrees")
@@ -157,7 +158,7 @@ class AGrip(ViewerTest):
 
     def test_arrows_are_the_contact_forces_of_grip_json(self):
         page = self.open(self.grip)
-        told = json.loads(wholehand("grip", *GRIP, "--json", "--fill", "0.5", "--tilt-deg", "0"))["states"][0]
+        told = json.loads(run("grip", *GRIP, "--json", "--fill", "0.5", "--tilt-deg", "0"))["states"][0]
         slide(page, "fill", 0.5)
         page.wait(f"Math.abs(wholehand.frame.vessels[0].volume - {told['liquid_volume_m3']}) < 1e-9", what="the fill")
         still(page)
@@ -188,7 +189,7 @@ class TheBestOfASweep(ViewerTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        wholehand("sweep", "small", "-o", "small.nc", "--on", "core", folder=cls.folder)
+        run("sweep", "small", "-o", "small.nc", "--on", "core", folder=cls.folder)
         cls.best = cls.serve("view", "small.nc")
 
     def test_the_list_has_each_grip_with_its_score(self):
@@ -256,7 +257,7 @@ class TheBestOfSeveralHands(ViewerTest):
         with open(shipped) as scene, open(os.path.join(cls.folder, "hands.toml"), "w") as file:
             text = scene.read().replace('name = "tumbler"', f'name = "{"glass_" * 10}"')
             file.write(text.replace("offset_mm = 3 ", "hand_scale = [0.9, 1, 1.125]\noffset_mm = 3 "))
-        wholehand("sweep", "hands.toml", "-o", "hands.nc", "--on", "core", folder=cls.folder)
+        run("sweep", "hands.toml", "-o", "hands.nc", "--on", "core", folder=cls.folder)
         cls.best = cls.serve("view", "hands.nc")
 
     def test_each_entry_shows_its_hand_scale_and_rank(self):

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The page for everyone: every width, dark mode, reduced motion, the keyboard alone, a reader of the screen, a server that is gone."""
 
-from support import ViewerTest, color_at, main, patient_board, slide, still, wholehand
+from harness import run
+from support import ViewerTest, color_at, main, patient_board, slide, still
 
 GRIP = ["three_beakers", "--vessel", "beaker2", "--height-mm", "95", "--roll-deg", "30"]
 RECORDING = "a_recording_whose_name_is_longer_than_a_narrow_window_is_wide.nc"
@@ -53,7 +54,7 @@ class ThePage(ViewerTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        wholehand("live", "mixing_board", "--no-clock", "--record", RECORDING, "--seconds", "4", folder=cls.folder)
+        run("live", "mixing_board", "--no-clock", "--record", RECORDING, "--seconds", "4", folder=cls.folder)
         cls.pages = {"grips": cls.serve("grip", *GRIP, "--view"), "recording": cls.serve("view", RECORDING),
                      "control": cls.serve("live", patient_board(cls.folder), "--view", "--device", "view")}
 

@@ -9,24 +9,15 @@ import shutil
 import signal
 import struct
 import subprocess
-import sys
 import tempfile
 import unittest
 import urllib.request
 import zlib
 
 from browser import Browser
+from harness import PROGRAM, cross, dot, minus, unit
 
-PROGRAM = os.environ.get("WHOLEHAND_PROGRAM", "")
 PATIENCE = 180  # s
-
-
-def wholehand(*arguments, folder=None):
-    """The standard output of a command that must go well."""
-    done = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, timeout=5 * PATIENCE)
-    if done.returncode:
-        raise AssertionError(f"wholehand {' '.join(arguments)}: {done.returncode}: {done.stderr}")
-    return done.stdout
 
 
 def patient_board(folder):
@@ -125,22 +116,6 @@ def slide(page, name, value):
                   " slider.dispatchEvent(new Event('input', {bubbles: true})); })()")
 
 
-def minus(a, b):
-    return [x - y for x, y in zip(a, b)]
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def unit(a):
-    return [x / math.sqrt(dot(a, a)) for x in a]
-
-
 def projected(camera, place):
     """Where a place of the world is in the window, px: from where the camera is, what it looks at, and its vertical field of view alone."""
     forward = unit(minus(camera["target"], camera["position"]))
@@ -203,6 +178,4 @@ class Picture:
 
 
 def main():
-    if not PROGRAM:
-        sys.exit("WHOLEHAND_PROGRAM names the program")
     unittest.main(verbosity=2)
