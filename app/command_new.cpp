@@ -85,7 +85,8 @@ void add_new_command(CLI::App& app, Action& action) {
   add("--mesh", arguments->mesh, "FILE", "Instead of a shape: a solid mesh (.glb, .gltf, .stl, .obj or .ply)")->excludes(shape);
   for (std::size_t k = 0; k < arguments->numbers.size(); ++k)
     add(option_of(new_scene_keys()[k].name), arguments->numbers[k], "N", new_scene_keys()[k].help);
-  add("--fill-ml", arguments->fill, "V", "Judge the vessel empty and with V mL; 0: only empty (default: five fills up to the brim)");
+  add("--fill-ml", arguments->fill, "V",
+      "Judge the vessel empty and with V mL; 0: only empty (default: five fills up to the brim)");
   command->callback([arguments, &action] { action = [arguments] { return write_new(*arguments); }; });
 }
 

@@ -123,10 +123,11 @@ TEST(Best, CsvHasOneRowAVesselAndRankWithUnitsInItsHead) {
   EXPECT_TRUE(rows[3].starts_with("\"a, \"\"b\"\"\",1,")) << rows[3];
   EXPECT_TRUE(rows[1].ends_with(",inf,,0,,,,,,,,,,,,,,,41,\"a, b.nc\",sweep-0")) << "no safe tilt, not refined: empty";
   EXPECT_TRUE(rows[2].ends_with(",inf,,0,,,,,,,,,0.875,51,44,-9,-88,-1,41,\"a, b.nc\",sweep-0")) << rows[2];
-  EXPECT_TRUE(rows[0].ends_with(
-      ",antipodal,worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,not_held,"
-      "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,"
-      "refined_offset_mm,grip,result,sweep"));
+  EXPECT_TRUE(
+      rows[0].ends_with(",antipodal,worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,"
+                        "held_margin,not_held,"
+                        "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,"
+                        "refined_offset_mm,grip,result,sweep"));
   EXPECT_TRUE(rows[0].starts_with(BEST_CSV_START));
   const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
   EXPECT_EQ(std::count(rows[1].begin(), rows[1].end(), ','), commas + 1) << "one is in the name";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sweeps/result_contents.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -245,16 +245,18 @@ void put_texts(int file, const char* program) {
 
 TEST(SweepResultTest, FilesOfVersionsBefore04AreRefused) {
   const TemporaryFolder folder;
-  for (const auto& [version, is_refused] : {std::pair{"0.1.1", true}, {"0.3.0", true}, {"0.4.0", false}, {"1.0.0", false}}) {
+  const auto refusal = [&folder](const std::string& version) {
     const std::string path = foreign_file(folder, [&](int file) {
       put_texts(file, "wholehand");
-      nc_put_att_text(file, NC_GLOBAL, "version", std::string(version).size(), version);
+      nc_put_att_text(file, NC_GLOBAL, "version", version.size(), version.data());
     });
-    EXPECT_EQ(refusal_line([&] { SweepResult result(path); }),
-              is_refused
-                  ? path + ": written by version " + version + "; this version reads files from 0.4.0 on: run the sweep again"
-                  : "");
-  }
+    return refusal_line([&] { SweepResult result(path); });
+  };
+  const std::string line = "; this version reads files from 0.4.0 on: run the sweep again";
+  EXPECT_EQ(refusal("0.1.1"), folder / "foreign.nc: written by version 0.1.1" + line);
+  EXPECT_EQ(refusal("0.3.0"), folder / "foreign.nc: written by version 0.3.0" + line);
+  EXPECT_EQ(refusal("0.4.0"), "");
+  EXPECT_EQ(refusal("1.0.0"), "");
 }
 
 TEST(SweepResultTest, FilesOfOtherProgramsAreRefused) {
