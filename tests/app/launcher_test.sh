@@ -37,6 +37,9 @@ wholehand-package-only-package
 
 # test
 wholehand-test-only-package
+
+# all
+wholehand-all-only-package
 EOF
 cat >"$tree/CMakeLists.txt" <<'EOF'
 cmake_minimum_required(VERSION 3.25)
@@ -262,10 +265,10 @@ check "an option gives exit code 2" equal "$? $output" "2 wholehand: package has
 output=$(start package --help)
 check "but --help says what it does" equal "$? $output" \
   "0 ./wholehand package [DIR]          makes Debian packages in DIR (build/packages) and says how to install them"
-for word in cluster test; do
-  output=$(start $word -h)
-  check "as it does of $word" equal "$? $(lines "$output") ${output%% *}" "0 1 ./wholehand"
-done
+output=$(start cluster -h)
+check "as it does of cluster" equal "$? $(lines "$output") ${output%% *}" "0 1 ./wholehand"
+output=$(start test -h)
+check "and of test and test --all" equal "$? $(lines "$output") ${output%% *}" "0 2 ./wholehand"
 output=$(start package one two)
 check "as do two folders" equal "$? $output" "2 wholehand: package takes one folder at most"
 check "nothing else is left in the build folder" equal "$(ls "$tree/build/default" | grep -c packing)" 0
@@ -273,8 +276,13 @@ check "nothing else is left in the build folder" equal "$(ls "$tree/build/defaul
 fresh
 touch "$work/updated"
 start test >/dev/null
-check "but by test" has "$(cat "$work/apt")" \
-  "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package wholehand-package-only-package wholehand-test-only-package"
+check "test asks for its own" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-test-only-package"
+check "and for no others" equal "$(grep -c -e cluster-only -e scale-only -e package-only -e all-only "$work/apt")" 0
+fresh
+touch "$work/updated"
+start test --all >/dev/null
+check "test --all asks for all" has "$(cat "$work/apt")" \
+  "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package wholehand-package-only-package wholehand-test-only-package wholehand-all-only-package"
 check "after which nothing is built again, for sweeps neither" equal "$(start sweep; start)" "v2[sweep]$work
 v2$work"
 chmod -R a-w "$tree"

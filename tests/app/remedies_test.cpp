@@ -27,12 +27,12 @@ struct RemedyCase {
   std::string scene, command, words, mended_scene, mended_command;
 };
 
-const std::string CUP =
+const std::string CUP_SCENE =
     "[[vessel]]\nname = \"cup\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 100\nwall_mm = 2\n"
     "[grips]\nheight_fraction = [0.4, 0.6]\nroll_deg = [-60, -30]\n";
 const std::string EFFORTLESS = "[strength]\nefforts = false\n";
 const std::string LIQUID = "[liquid]\nfills = [0, 0.5]\n", TILTS = "[tilts]\ndeg = [0, 45]\n", STRENGTH = "[strength]\n";
-const std::string WHOLE = CUP + LIQUID + TILTS + STRENGTH;
+const std::string WHOLE = CUP_SCENE + LIQUID + TILTS + STRENGTH;
 
 const std::string SWEEP = "sweep @.toml -o @.nc --on core ", SWEPT = SWEEP + ">/dev/null && PROGRAM ";
 const std::string GRIP = "grip @.toml --vessel cup --height-mm 50 ", RANKED = SWEPT + "grip @.nc --vessel cup ";
@@ -94,12 +94,13 @@ TEST(FollowedRemedies, HelpSweepAndRank) {
       {WHOLE, rank + "--weights posture=1,", "name a term after it", WHOLE, rank + "--weights posture=1,depth=1"},
       {WHOLE, rank + "-o @.nc", "name another file for the list", WHOLE, rank + "-o @.csv"},
       {WHOLE, rank + "-o @.best.csv", "this is the sweep's own list; name another file", WHOLE, rank + "-o @.csv"},
-      {CUP, "view @.toml", "`wholehand grip --view` shows a grip of a scene", CUP, SHOWN + GRIP + "--view"},
-      {CUP, SWEPT + "report @.nc -o @.nc", "name another file for the page", CUP, SWEPT + "report @.nc -o @.html"},
-      {CUP + "[output]\nbest = 0\n", SWEPT + "view @.nc", "sweep with --best 1 or more", CUP, SHOWN + "view @.nc"},
-      {CUP + "count = 3\n", SWEEP, "allowed: with sampling = \"sobol\"", CUP + "count = 3\nsampling = \"sobol\"\n", SWEEP},
-      {CUP + "azimuth_deg = { from = 0, to = 1, count = 1000000 }\nobliquity_deg = { from = 0, to = 1, count = 1000000 }\n", SWEEP,
-       "give [grips] fewer values", CUP + "azimuth_deg = { from = 0, to = 1, count = 2 }\n", SWEEP},
+      {CUP_SCENE, "view @.toml", "`wholehand grip --view` shows a grip of a scene", CUP_SCENE, SHOWN + GRIP + "--view"},
+      {CUP_SCENE, SWEPT + "report @.nc -o @.nc", "name another file for the page", CUP_SCENE, SWEPT + "report @.nc -o @.html"},
+      {CUP_SCENE + "[output]\nbest = 0\n", SWEPT + "view @.nc", "sweep with --best 1 or more", CUP_SCENE, SHOWN + "view @.nc"},
+      {CUP_SCENE + "count = 3\n", SWEEP, "allowed: with sampling = \"sobol\"", CUP_SCENE + "count = 3\nsampling = \"sobol\"\n",
+       SWEEP},
+      {CUP_SCENE + "azimuth_deg = { from = 0, to = 1, count = 1000000 }\nobliquity_deg = { from = 0, to = 1, count = 1000000 }\n",
+       SWEEP, "give [grips] fewer values", CUP_SCENE + "azimuth_deg = { from = 0, to = 1, count = 2 }\n", SWEEP},
       {WHOLE, SWEPT + "sweep @.toml -o @.nc --on core --precision float --resume", "or start again without --resume", WHOLE,
        SWEPT + "sweep @.toml -o @.nc --on core --precision float"},
       {WHOLE, SWEPT + "sweep @.toml -o @.nc --on core --precision float --resume", "name another file", WHOLE,
@@ -111,29 +112,31 @@ TEST(FollowedRemedies, HelpSweepAndRank) {
 
 TEST(FollowedRemedies, HelpGrip) {
   const std::string own_list = "--list @.best.csv ", scaled = WHOLE + "hand_scale = 1\n";
-  const std::string scales = CUP + "hand_scale = [0.9, 1]\n[output]\nbest = 1\n";
+  const std::string scales = CUP_SCENE + "hand_scale = [0.9, 1]\n[output]\nbest = 1\n";
   expect_helps({
       {WHOLE, RANKED, "give --rank", WHOLE, RANKED + "--rank 1"},
       {WHOLE, SWEEP + "--no-refine >/dev/null && PROGRAM grip @.nc --vessel cup --rank 1 --refined",
        "sweep again without --no-refine", WHOLE, RANKED + "--rank 1 --refined"},
-      {CUP + TILTS, GRIP + "--fill 0.5", "add one with its fills", CUP + TILTS + LIQUID, GRIP + "--fill 0.5"},
-      {CUP + LIQUID, GRIP + "--fill 0.5", "give --tilt-deg too", CUP + LIQUID, GRIP + "--fill 0.5 --tilt-deg 0"},
+      {CUP_SCENE + TILTS, GRIP + "--fill 0.5", "add one with its fills", CUP_SCENE + TILTS + LIQUID, GRIP + "--fill 0.5"},
+      {CUP_SCENE + LIQUID, GRIP + "--fill 0.5", "give --tilt-deg too", CUP_SCENE + LIQUID, GRIP + "--fill 0.5 --tilt-deg 0"},
       {WHOLE, GRIP + "--fill 1 --on vulkan", "use --on core", WHOLE, GRIP + "--fill 1 --on core"},
-      {CUP, "grip @.toml --vessel cup", "give --height-mm", CUP, GRIP},
-      {CUP, "grip @.toml --vessel cup", "or --thumb-mm and --index-mm", CUP,
+      {CUP_SCENE, "grip @.toml --vessel cup", "give --height-mm", CUP_SCENE, GRIP},
+      {CUP_SCENE, "grip @.toml --vessel cup", "or --thumb-mm and --index-mm", CUP_SCENE,
        "grip @.toml --vessel cup --thumb-mm=-40,50,0 --index-mm 40,50,0"},
-      {CUP, "grip @.toml --vessel cup --thumb-mm 40,50,0 --index-mm 40,50,0", "give two points of the vessel's surface", CUP,
-       "grip @.toml --vessel cup --thumb-mm=-40,50,0 --index-mm 40,50,0"},
-      {CUP, GRIP + "--glb @.out --svg @.out", "give two different names", CUP, GRIP + "--glb @.glb --svg @.svg"},
-      {CUP, GRIP + "--hand-scale 0.2 --glb @.glb", "choose another grip", CUP, GRIP + "--glb @.glb"},
-      {CUP, GRIP + "--refined", "--refined: the rank of the grip is missing; give --rank", CUP, RANKED + "--rank 1 --refined"},
-      {CUP, GRIP + own_list, "--list: the rank of the grip is missing; give --rank", CUP, RANKED + "--rank 1 " + own_list},
-      {CUP, RANKED + "--rank 1 --refined " + own_list, "leave --list out", CUP, RANKED + "--rank 1 --refined"},
-      {CUP, RANKED + "--rank 1 --hand-scale 1", "leave the option out", CUP, RANKED + "--rank 1"},
+      {CUP_SCENE, "grip @.toml --vessel cup --thumb-mm 40,50,0 --index-mm 40,50,0", "give two points of the vessel's surface",
+       CUP_SCENE, "grip @.toml --vessel cup --thumb-mm=-40,50,0 --index-mm 40,50,0"},
+      {CUP_SCENE, GRIP + "--glb @.out --svg @.out", "give two different names", CUP_SCENE, GRIP + "--glb @.glb --svg @.svg"},
+      {CUP_SCENE, GRIP + "--hand-scale 0.2 --glb @.glb", "choose another grip", CUP_SCENE, GRIP + "--glb @.glb"},
+      {CUP_SCENE, GRIP + "--refined", "--refined: the rank of the grip is missing; give --rank", CUP_SCENE,
+       RANKED + "--rank 1 --refined"},
+      {CUP_SCENE, GRIP + own_list, "--list: the rank of the grip is missing; give --rank", CUP_SCENE,
+       RANKED + "--rank 1 " + own_list},
+      {CUP_SCENE, RANKED + "--rank 1 --refined " + own_list, "leave --list out", CUP_SCENE, RANKED + "--rank 1 --refined"},
+      {CUP_SCENE, RANKED + "--rank 1 --hand-scale 1", "leave the option out", CUP_SCENE, RANKED + "--rank 1"},
       {scales, RANKED + "--rank 1 --hand-scale 2", "the hand scales 0.9, 1; give one of them", scales,
        RANKED + "--rank 1 --hand-scale 0.9"},
-      {CUP, "grip @.toml --vessel cub --height-mm 50", "the nearest is 'cup'", CUP, GRIP},
-      {CUP, GRIP + "--view-port 8000", "add --view", CUP, SHOWN + GRIP + "--view --view-port 0"},
+      {CUP_SCENE, "grip @.toml --vessel cub --height-mm 50", "the nearest is 'cup'", CUP_SCENE, GRIP},
+      {CUP_SCENE, GRIP + "--view-port 8000", "add --view", CUP_SCENE, SHOWN + GRIP + "--view --view-port 0"},
   });
 }
 
@@ -146,14 +149,14 @@ TEST(FollowedRemedies, HelpWhereALineIsANote) {
                     weightless = "[score]\nhold = 0\n";
   expect_helps(
       {
-          {CUP + STRENGTH, SWEEP, "add [tilts] with its deg", CUP + STRENGTH + TILTS, SWEEP},
-          {CUP + STRENGTH, SWEEP, "or leave [strength] out", CUP, SWEEP},
+          {CUP_SCENE + STRENGTH, SWEEP, "add [tilts] with its deg", CUP_SCENE + STRENGTH + TILTS, SWEEP},
+          {CUP_SCENE + STRENGTH, SWEEP, "or leave [strength] out", CUP_SCENE, SWEEP},
           {WHOLE + robust, SWEEP + "--best 0", "set 'best' of [output] above 0", WHOLE + robust + "[output]\nbest = 1\n", SWEEP},
           {WHOLE + robust, SWEEP + "--best 0", "or leave [robust] out", WHOLE, SWEEP + "--best 0"},
           {WHOLE + robust + weightless, SWEEP, "leave it out, and the scores take less time", WHOLE + weightless, SWEEP},
           {WHOLE + turned, SWEEP, "bodies of revolution; leave it out", WHOLE, SWEEP},
-          {CUP + "hand_scale = 0.09\n", SWEEP + "--precision float", "; use --precision double", CUP + "hand_scale = 0.09\n",
-           SWEEP + "--precision double"},
+          {CUP_SCENE + "hand_scale = 0.09\n", SWEEP + "--precision float", "; use --precision double",
+           CUP_SCENE + "hand_scale = 0.09\n", SWEEP + "--precision double"},
           {hourglass, SWEEP, "give 'floor_mm'", edited(hourglass, "wall_mm = 2", "wall_mm = 2\nfloor_mm = 55"), SWEEP},
       },
       0);
@@ -162,24 +165,24 @@ TEST(FollowedRemedies, HelpWhereALineIsANote) {
 TEST(FollowedRemedies, HelpTrialsAndStudies) {
   const std::string trials = "trials @.toml -o @.trials --quick --threads 1 --best 0 --grips ", one = trials + "1 ",
                     study = "study @.toml --quick --threads 1 -o @.study ";
-  const std::string guided = CUP.substr(0, CUP.find("[grips]")) + "guidance_mm = [[50, 0]]\n";
+  const std::string guided = CUP_SCENE.substr(0, CUP_SCENE.find("[grips]")) + "guidance_mm = [[50, 0]]\n";
   const std::string
       alone = "--protocol six-forces ",
       task = "liquid = { name = \"red\", fill = 0.6 }\n" + LIQUID +
              "[task]\ntarget = { place_mm = [0, 80, -280], diameter_mm = 120 }\namounts_ml = { red = 60 }\ntolerance_ml = 5\n"
              "destination_mm = [0, 0, -280]\n";
   expect_helps({
-      {CUP + TILTS + EFFORTLESS, one, "leave efforts = false out", CUP + TILTS + STRENGTH, one},
-      {CUP + STRENGTH, one, "add it to the scene, with its deg", CUP + STRENGTH + TILTS, one},
-      {CUP + STRENGTH + TILTS, one + "--fill 0.5", "add one with its fills", WHOLE, one + "--fill 0.5"},
-      {CUP + STRENGTH + TILTS, one + "--fill 0.5", "or leave --fill out", CUP + STRENGTH + TILTS, one},
+      {CUP_SCENE + TILTS + EFFORTLESS, one, "leave efforts = false out", CUP_SCENE + TILTS + STRENGTH, one},
+      {CUP_SCENE + STRENGTH, one, "add it to the scene, with its deg", CUP_SCENE + STRENGTH + TILTS, one},
+      {CUP_SCENE + STRENGTH + TILTS, one + "--fill 0.5", "add one with its fills", WHOLE, one + "--fill 0.5"},
+      {CUP_SCENE + STRENGTH + TILTS, one + "--fill 0.5", "or leave --fill out", CUP_SCENE + STRENGTH + TILTS, one},
       {WHOLE, one + alone + "--tilt-deg 30", "leave --tilt-deg out", WHOLE, one + alone},
       {WHOLE, one + alone + "--tilt-deg 30", "or ask for --protocol both", WHOLE, one + "--protocol both --tilt-deg 30"},
       {WHOLE, one + alone + "--fill 0.2 0.4", "give one fill", WHOLE, one + alone + "--fill 0.4"},
       {WHOLE, one + alone + "--fill 0.2 0.4", "or ask for --protocol both", WHOLE, one + "--protocol both --fill 0.2 0.4"},
       {WHOLE, trials + "0", "give more of one", WHOLE, one},
-      {CUP.substr(0, CUP.find("[grips]")) + "surface = \"shell\"\n" + TILTS + STRENGTH, one, "use surface = \"solid\"",
-       CUP.substr(0, CUP.find("[grips]")) + "surface = \"solid\"\n" + TILTS + STRENGTH, one},
+      {CUP_SCENE.substr(0, CUP_SCENE.find("[grips]")) + "surface = \"shell\"\n" + TILTS + STRENGTH, one, "use surface = \"solid\"",
+       CUP_SCENE.substr(0, CUP_SCENE.find("[grips]")) + "surface = \"solid\"\n" + TILTS + STRENGTH, one},
       {WHOLE, one + ">/dev/null && PROGRAM " + one + "--seed 2 --resume", "leave --resume out to replace them", WHOLE,
        one + ">/dev/null && PROGRAM " + one + "--seed 2"},
       {guided, study + "--experiment sessions", "or ask for --experiment contacts or forces", guided,
@@ -188,7 +191,8 @@ TEST(FollowedRemedies, HelpTrialsAndStudies) {
        study + "--experiment sessions --people 1"},
       {edited(guided, "cup", "all"), study + "--experiment contacts --people 20",
        "as the rows of all vessels together; give it another", guided, study + "--experiment contacts --people 20"},
-      {CUP, study + "--experiment contacts", "add guidance_mm to a vessel", guided, study + "--experiment contacts --people 20"},
+      {CUP_SCENE, study + "--experiment contacts", "add guidance_mm to a vessel", guided,
+       study + "--experiment contacts --people 20"},
       {guided, study + "--experiment contacts --resume", "allowed: with forces", guided,
        study + "--experiment forces --people 2 --resume"},
       {"", "stability", "or use `stability wall` for one device", "",
@@ -201,7 +205,7 @@ TEST(FollowedRemedies, HelpTrialsAndStudies) {
 TEST(FollowedRemedies, HelpLive) {
   const std::string board = board_text(), quick = "live @.toml --no-clock --seconds 1 ", clocked = "live @.toml --seconds 0.3 ",
                     recorded = quick + "--record @.nc >/dev/null && PROGRAM ", replay = "live --no-clock --device replay:@.nc ";
-  const std::string second = CUP.substr(0, CUP.find("[grips]")),
+  const std::string second = CUP_SCENE.substr(0, CUP_SCENE.find("[grips]")),
                     renamed = "[[vessel]]\nname = \"mug\"" + second.substr(second.find("\nshape"));
   expect_helps({
       {board, quick + "--advise-on core", "add --advise", board, quick + "--advise --advise-on core"},
@@ -330,17 +334,18 @@ TEST(FollowedRemedies, HelpWhereRoomMemoryOrThreadsEnd) {
   const std::string many =
                         "height_fraction = { from = 0.3, to = 0.7, count = 60 }\nroll_deg = { from = -90, to = 0, count = 60 }\n",
                     some = "height_fraction = [0.4, 0.6]\nroll_deg = [-60, -30]\n",
-                    vessel = CUP.substr(0, CUP.find("height_fraction")),
+                    vessel = CUP_SCENE.substr(0, CUP_SCENE.find("height_fraction")),
                     sweep = "--version >/dev/null && (ulimit -f 800; PROGRAM " + SWEEP + ")";
   expect_helps(
       {
           {vessel + many + TILTS, sweep, "keep fewer variables ([output] keep)",
            vessel + many + TILTS + "[output]\nkeep = [\"score\", \"plausible\"]\n", sweep},
           {vessel + many + TILTS, sweep, "give [grips] fewer values", vessel + some + TILTS, sweep},
-          {CUP, cramped + "256)", "raise the limits of processes (ulimit -u) and memory (ulimit -v)", CUP, SWEEP + "--threads 256"},
+          {CUP_SCENE, cramped + "256)", "raise the limits of processes (ulimit -u) and memory (ulimit -v)", CUP_SCENE,
+           SWEEP + "--threads 256"},
           {"[[vessel]]\ngrid_mm = 0.2" + mesh.substr(mesh.find("\nname")), cramped + "1)", "ask for less at once", mesh,
            cramped + "1)"},
-          {CUP, "--version >/dev/null && (ulimit -n 16; PROGRAM " + SWEEP + ")", "raise this limit (ulimit -n)", CUP,
+          {CUP_SCENE, "--version >/dev/null && (ulimit -n 16; PROGRAM " + SWEEP + ")", "raise this limit (ulimit -n)", CUP_SCENE,
            "--version >/dev/null && (ulimit -n 256; PROGRAM " + SWEEP + ")"},
       },
       3);

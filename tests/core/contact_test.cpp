@@ -199,7 +199,7 @@ std::vector<Whole> wholes() {
 
 // Calls `check` for each feasible grip of a sample.
 template <class Check>
-void for_each_grip(const Whole& whole, Check check) {
+void for_each_whole_grip(const Whole& whole, Check check) {
   const auto evaluator = make_core_evaluator(whole.scene);
   int feasible = 0;
   for (GripInput grip : sample_grips(whole.scene.vessels[0], 80, 35)) {
@@ -215,7 +215,7 @@ void for_each_grip(const Whole& whole, Check check) {
 
 TEST(Contact, SeparationsAreThoseOfThePosedHand) {
   for (const Whole& whole : wholes()) {
-    for_each_grip(whole, [&](const Evaluator& evaluator, double scale, const GripResult& result) {
+    for_each_whole_grip(whole, [&](const Evaluator& evaluator, double scale, const GripResult& result) {
       for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
         // 1e-15 m: the tips of the index finger and the thumb are evaluated where they were traced
         EXPECT_NEAR(result.separation[j], evaluator.distance(0, result.posed[j]) - scale * joint_radius(whole.scene.hand, j), 1e-15)
@@ -228,7 +228,7 @@ TEST(Contact, SeparationsAreThoseOfThePosedHand) {
 TEST(Contact, TouchesWithinTheContactTolerance) {
   for (const Whole& whole : wholes()) {
     int touching = 0, apart = 0, penetrating = 0;
-    for_each_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
+    for_each_whole_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
       for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
         const bool touches = result.touch_mask >> j & 1;
         if (j == THUMB_TIP || j == INDEX_TIP) {
@@ -280,7 +280,7 @@ TEST(Contact, WhatRestsTouchesWhateverTheTolerance) {
 
 TEST(Contact, FingerIsUsedWhenAPointOfItTouches) {
   for (const Whole& whole : wholes()) {
-    for_each_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
+    for_each_whole_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
       std::uint32_t used = 0;
       for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
         if (result.touch_mask >> j & 1) used |= 1u << finger_of(static_cast<int>(j));
@@ -294,7 +294,7 @@ TEST(Contact, FingerIsUsedWhenAPointOfItTouches) {
 TEST(Contact, DepthsArePhalangesAndPalm) {
   for (const Whole& whole : wholes()) {
     double deepest_phalanx = 0, deepest_palm = 0;
-    for_each_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
+    for_each_whole_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
       double phalanx = 0, palm = 0;
       for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
         double& depth = is_base(j) ? palm : phalanx;  // MCPs are phalanges here
@@ -337,7 +337,7 @@ TEST(Contact, PalmDepthIsFoundWhereThePalmIsInside) {
 TEST(Contact, ProxiesAreNeverInsideTheGlass) {
   for (const Whole& whole : wholes()) {
     int moved = 0, unsettled_grips = 0, grips = 0;
-    for_each_grip(whole, [&](const Evaluator& evaluator, double scale, const GripResult& result) {
+    for_each_whole_grip(whole, [&](const Evaluator& evaluator, double scale, const GripResult& result) {
       const bool unsettled = result.status & STATUS_PROXY_UNSETTLED;
       ++grips;
       unsettled_grips += unsettled;
@@ -368,7 +368,7 @@ TEST(Contact, ProxiesAreNeverInsideTheGlass) {
 TEST(Contact, BoneStretchIsTheLargestOverTheBones) {
   for (const Whole& whole : wholes()) {
     double largest = 0;
-    for_each_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
+    for_each_whole_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
       double stretch = 0;
       int bones = 0;
       for (std::size_t j = 0; j + 1 < JOINT_COUNT; ++j) {

@@ -15,7 +15,7 @@ namespace wholehand {
 namespace {
 
 // m: sums of at most five lengths under 0.3 m, and products of them.
-constexpr double ROUNDING = 1e-15;
+constexpr double SIZE_ROUNDING = 1e-15;
 
 // The tip of a finger, or its MCP, with every joint straight.
 core_f64::Vec3 straight(const core_f64::Hand& hand, std::size_t finger, std::size_t segments) {
@@ -40,7 +40,7 @@ HandData sized(const HandSize& size) {
 }
 
 TEST(HandSize, OfThePapersHandIsWhatTheReferenceSays) {
-  EXPECT_NEAR(size_of(paper_hand()).length, 186.91e-3, ROUNDING);
+  EXPECT_NEAR(size_of(paper_hand()).length, 186.91e-3, SIZE_ROUNDING);
   EXPECT_NEAR(size_of(paper_hand()).breadth, 69.24e-3, 5e-6);  // in two digits
 }
 
@@ -70,13 +70,13 @@ TEST(HandSize, IsMeasuredOnThePosedFlatHand) {
 TEST(HandSize, IsTheOneThatWasAskedFor) {
   for (const HandSize wanted : {HandSize{0.1, 0.049}, HandSize{0.165, 0.072}, HandSize{0.19, 0.1}, HandSize{0.3, 0.06}}) {
     const HandSize is = measured(sized(wanted));
-    EXPECT_NEAR(is.length, wanted.length, ROUNDING);
-    EXPECT_NEAR(is.breadth, wanted.breadth, ROUNDING);
+    EXPECT_NEAR(is.length, wanted.length, SIZE_ROUNDING);
+    EXPECT_NEAR(is.breadth, wanted.breadth, SIZE_ROUNDING);
   }
   // to the default's own size: the default, to rounding
   const HandData same = sized(size_of({})), plain;
   for (std::size_t f = 0; f < FINGER_COUNT; ++f)
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(same.fingers[f].base[k], plain.fingers[f].base[k], ROUNDING);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(same.fingers[f].base[k], plain.fingers[f].base[k], SIZE_ROUNDING);
 }
 
 // One length or breadth, all of its parts: no angle changes.
@@ -84,16 +84,17 @@ TEST(HandSize, LengthsAndRadiiHaveARatioEach) {
   const HandData hand = sized({1.1 * size_of({}).length, 1.3 * size_of({}).breadth}), plain;
   for (std::size_t f = 0; f < FINGER_COUNT; ++f) {
     const FingerData &finger = hand.fingers[f], &before = plain.fingers[f];
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(finger.segments[k], 1.1 * before.segments[k], ROUNDING);
-    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(finger.radii[k], 1.3 * before.radii[k], ROUNDING);
-    for (const std::size_t k : {1, 2}) EXPECT_NEAR(finger.base[k], 1.1 * before.base[k], ROUNDING);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(finger.segments[k], 1.1 * before.segments[k], SIZE_ROUNDING);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(finger.radii[k], 1.3 * before.radii[k], SIZE_ROUNDING);
+    for (const std::size_t k : {1, 2}) EXPECT_NEAR(finger.base[k], 1.1 * before.base[k], SIZE_ROUNDING);
     EXPECT_EQ(finger.splay, before.splay);
     EXPECT_EQ(finger.arch, before.arch);
   }
   // each knuckle as much further from the index finger's
   const core_f64::Hand posed = ready_hand(hand), was = ready_hand(plain);
   for (const std::size_t f : {2, 3, 4}) {
-    EXPECT_NEAR(straight(posed, f, 1).x - straight(posed, 1, 1).x, 1.3 * (straight(was, f, 1).x - straight(was, 1, 1).x), ROUNDING);
+    EXPECT_NEAR(straight(posed, f, 1).x - straight(posed, 1, 1).x, 1.3 * (straight(was, f, 1).x - straight(was, 1, 1).x),
+                SIZE_ROUNDING);
   }
 }
 

@@ -20,7 +20,7 @@
 namespace wholehand {
 namespace {
 
-constexpr double ROUNDING = 1e-14;  // sums of a few numbers up to 1
+constexpr double SCORE_ROUNDING = 1e-14;  // sums of a few numbers up to 1
 
 // ---- terms ----
 
@@ -89,7 +89,7 @@ TEST(Score, WeightsAreTheScenes) {
 TEST(Score, WithoutTiltsTheRemainingWeightsSumToOne) {
   const auto weights = effective_weights(scene_of({beaker1()}));
   const std::array<double, 6> expected{0.02 / 0.75, 0.02 / 0.75, 0.69 / 0.75, 0.02 / 0.75, 0, 0};
-  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(weights[k], expected[k], ROUNDING) << k;
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(weights[k], expected[k], SCORE_ROUNDING) << k;
   EXPECT_EQ(weights[4], 0);
   EXPECT_EQ(weights[5], 0);
 }
@@ -109,10 +109,11 @@ void expect_score(const Scene& scene, const Evaluator& evaluator, std::size_t v,
     EXPECT_EQ(score.score, 0) << where;
     return;
   }
-  EXPECT_NEAR(score.terms.fingers, std::popcount(result.used_mask) / 5.0, ROUNDING) << where;
-  EXPECT_NEAR(score.terms.contacts, std::popcount(result.touch_mask) / 24.0, ROUNDING) << where;
-  EXPECT_NEAR(score.terms.depth, 1 - std::min(1.0, std::max(result.phalanx_depth, result.palm_depth) / 0.01), ROUNDING) << where;
-  EXPECT_NEAR(score.terms.posture, 1 - std::abs(2 * result.closure - 1), ROUNDING) << where;
+  EXPECT_NEAR(score.terms.fingers, std::popcount(result.used_mask) / 5.0, SCORE_ROUNDING) << where;
+  EXPECT_NEAR(score.terms.contacts, std::popcount(result.touch_mask) / 24.0, SCORE_ROUNDING) << where;
+  EXPECT_NEAR(score.terms.depth, 1 - std::min(1.0, std::max(result.phalanx_depth, result.palm_depth) / 0.01), SCORE_ROUNDING)
+      << where;
+  EXPECT_NEAR(score.terms.posture, 1 - std::abs(2 * result.closure - 1), SCORE_ROUNDING) << where;
 
   const std::vector<double> fills = scene.liquid ? scene.liquid->fills : std::vector<double>{0};
   double largest_force = 0, largest_hold = 0;
@@ -154,7 +155,7 @@ void expect_score(const Scene& scene, const Evaluator& evaluator, std::size_t v,
     EXPECT_NEAR(score.terms.hold, largest_hold > 0 ? std::min(1.0, scene.force.grip_strength / largest_hold) : 1, 1e-12) << where;
   }
   if (result.plausible) {
-    EXPECT_NEAR(score.score, weighted(scene, score.terms), ROUNDING) << where;
+    EXPECT_NEAR(score.score, weighted(scene, score.terms), SCORE_ROUNDING) << where;
   } else {
     EXPECT_EQ(score.score, 0) << where;
   }
@@ -233,7 +234,7 @@ TEST(Score, LoneTiltZeroIsAllThatCounts) {
     EXPECT_EQ(fill.peak_tilt, 0);
     EXPECT_EQ(fill.safe_tilt, 0);
   }
-  EXPECT_NEAR(evaluator->score(0, grip, result).terms.force, 0.9, ROUNDING);
+  EXPECT_NEAR(evaluator->score(0, grip, result).terms.force, 0.9, SCORE_ROUNDING);
 }
 
 TEST(Score, SafeUpToTheGripStrengthAndShortOfTheLargestForce) {

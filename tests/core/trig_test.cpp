@@ -16,7 +16,7 @@ namespace {
 using core_f64::Vec3;
 
 // 1e-15: a few roundings of numbers up to 4.
-constexpr double ROUNDING = 1e-15;
+constexpr double SINE_ROUNDING = 1e-15;
 
 long double reference_angle(Vec3 a, Vec3 b) {
   const Long3 wide_a{a.x, a.y, a.z}, wide_b{b.x, b.y, b.z};
@@ -33,8 +33,8 @@ TEST(Trig, SineAndCosineOnTheirWholeRange) {
     const double angle = i * 0.01;
     double s = 0, c = 0;
     core_f64::sine_cosine(angle, s, c);
-    EXPECT_NEAR(s, double(std::sin(static_cast<long double>(angle))), ROUNDING) << angle;
-    EXPECT_NEAR(c, double(std::cos(static_cast<long double>(angle))), ROUNDING) << angle;
+    EXPECT_NEAR(s, double(std::sin(static_cast<long double>(angle))), SINE_ROUNDING) << angle;
+    EXPECT_NEAR(c, double(std::cos(static_cast<long double>(angle))), SINE_ROUNDING) << angle;
     EXPECT_EQ(core_f64::sine(angle), s);
     EXPECT_EQ(core_f64::cosine(angle), c);
   }
@@ -43,7 +43,7 @@ TEST(Trig, SineAndCosineOnTheirWholeRange) {
 TEST(Trig, ArcCosineOnItsWholeRange) {
   for (int i = -1000; i <= 1000; ++i) {
     const double x = i / 1000.0;
-    EXPECT_NEAR(core_f64::arc_cosine(x), double(std::acos(static_cast<long double>(x))), ROUNDING) << x;
+    EXPECT_NEAR(core_f64::arc_cosine(x), double(std::acos(static_cast<long double>(x))), SINE_ROUNDING) << x;
   }
   EXPECT_EQ(core_f64::arc_cosine(1), 0);
   EXPECT_EQ(core_f64::arc_cosine(-1), PI);
@@ -65,7 +65,8 @@ TEST(Trig, AngleBetweenIsAccurateNearZeroARightAngleAndAHalfTurn) {
     for (const long double off : {0.0L, 1e-15L, 1e-12L, 1e-9L, 1e-8L, 1e-6L, 1e-3L, 0.1L}) {
       for (const long double sense : {-1.0L, 1.0L}) {
         const Vec3 b = turned_in_plane(a, side, base + sense * off);
-        EXPECT_NEAR(core_f64::angle_between(a, b), double(reference_angle(a, b)), ROUNDING) << double(base) << " " << double(off);
+        EXPECT_NEAR(core_f64::angle_between(a, b), double(reference_angle(a, b)), SINE_ROUNDING)
+            << double(base) << " " << double(off);
       }
     }
   }
@@ -77,7 +78,7 @@ TEST(Trig, AngleBetweenOverTheSphere) {
     const Vec3 a = glm::normalize(Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
     const Vec3 b = glm::normalize(Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
     const double angle = core_f64::angle_between(a, b);
-    EXPECT_NEAR(angle, double(reference_angle(a, b)), ROUNDING) << i;
+    EXPECT_NEAR(angle, double(reference_angle(a, b)), SINE_ROUNDING) << i;
     EXPECT_EQ(core_f64::angle_between(b, a), angle) << i;
   }
 }

@@ -17,7 +17,7 @@
 namespace wholehand::protocol {
 namespace {
 
-constexpr double ROUNDING = 1e-9;  // m and of a rotation's parts: a nanometre, and 2^-30 rounded
+constexpr double WIRE_ROUNDING = 1e-9;  // m and of a rotation's parts: a nanometre, and 2^-30 rounded
 
 InputReport some_report() {
   InputReport report;
@@ -178,9 +178,9 @@ TEST(Protocol, StatesComeBackWithinANanometre) {
     state.time = 12.5;
     Measurements measurements(true);
     const GripperState back = measurements.state(report_of(state));
-    for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(back.rotation[i], state.rotation[i], 4 * ROUNDING) << angle << ' ' << i;
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(back.position[i], state.position[i], ROUNDING);
-    EXPECT_NEAR(back.gap, state.gap, ROUNDING);
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(back.rotation[i], state.rotation[i], 4 * WIRE_ROUNDING) << angle << ' ' << i;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(back.position[i], state.position[i], WIRE_ROUNDING);
+    EXPECT_NEAR(back.gap, state.gap, WIRE_ROUNDING);
     EXPECT_DOUBLE_EQ(back.time, 12.5);
   }
 }

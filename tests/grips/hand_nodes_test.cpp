@@ -41,7 +41,7 @@ HeldHand held(const HandData& hand, Pose pose, const GripInput& grip) {
   return held;
 }
 
-const GripInput GRIP{0.055, 0.6, 0.15, -0.4, 0.004, 1.02};
+const GripInput SHOWN_GRIP{0.055, 0.6, 0.15, -0.4, 0.004, 1.02};
 
 // Rotations of the joints in the hand frame as the specification chains them. A thumb bends towards its +y, so its nail is at -y.
 LongRotation reference_rotation(const HandData& hand, int finger, int joint, long double closure) {
@@ -59,7 +59,7 @@ LongRotation reference_rotation(const HandData& hand, int finger, int joint, lon
 }
 
 void expect_as_specified(const HandData& hand) {
-  const HeldHand h = held(hand, Pose::rigged, GRIP);
+  const HeldHand h = held(hand, Pose::rigged, SHOWN_GRIP);
   const HandNodes nodes = hand_nodes(hand, h.grip, h.result);
   const LongRotation wrist = rotation_of(nodes.wrist.rotation);
   const long double side = hand.handedness == Handedness::left ? -1 : 1;
@@ -70,7 +70,7 @@ void expect_as_specified(const HandData& hand) {
     for (int k = 0; k < finger_joints(f); ++k) {
       const int j = finger_start(f) + k;
       // the closure is solved to 1e-9 m of the gap
-      const Long3 there = long_of(nodes.wrist.position) + wrist * (mirror * ((long double)(GRIP.hand_scale) * joints[k]));
+      const Long3 there = long_of(nodes.wrist.position) + wrist * (mirror * ((long double)(SHOWN_GRIP.hand_scale) * joints[k]));
       EXPECT_LT(length(there - long_of(nodes.joints[j].position)), 1e-8L) << nodes.joints[j].name;
       EXPECT_EQ(nodes.joints[j].position, h.result.posed[j]);
       const LongRotation expected = wrist * (mirror * reference_rotation(hand, f, k, h.result.closure) * mirror);
@@ -79,7 +79,7 @@ void expect_as_specified(const HandData& hand) {
         EXPECT_LT(length(column(rotation_of(nodes.joints[j].rotation), axis) - column(expected, axis)), 1e-6L)
             << nodes.joints[j].name << " axis " << axis;
       }
-      EXPECT_DOUBLE_EQ(nodes.joints[j].radius, hand.scale * GRIP.hand_scale * hand.fingers[f].radii[k]);
+      EXPECT_DOUBLE_EQ(nodes.joints[j].radius, hand.scale * SHOWN_GRIP.hand_scale * hand.fingers[f].radii[k]);
     }
   }
 }
@@ -101,7 +101,7 @@ TEST(HandNodes, HandOfOtherNumbersToo) {
 TEST(HandNodes, PosedBonesRunAlongMinusZWithTheBackUp) {
   for (const Pose pose : {Pose::articulated, Pose::paper}) {
     for (const HandData& hand : {paper_hand(), left_hand()}) {
-      const HeldHand h = held(hand, pose, GRIP);
+      const HeldHand h = held(hand, pose, SHOWN_GRIP);
       const HandNodes nodes = hand_nodes(hand, h.grip, h.result);
       const Long3 palm_to_back = column(rotation_of(nodes.wrist.rotation), 1);
       for (int f = 0; f < FINGER_COUNT; ++f) {
@@ -129,7 +129,7 @@ TEST(HandNodes, PosedBonesRunAlongMinusZWithTheBackUp) {
 }
 
 TEST(HandNodes, NamesAreThoseOfHandRigs) {
-  const HeldHand h = held({}, Pose::articulated, GRIP);
+  const HeldHand h = held({}, Pose::articulated, SHOWN_GRIP);
   const HandNodes nodes = hand_nodes({}, h.grip, h.result);
   EXPECT_STREQ(nodes.wrist.name, "wrist");
   EXPECT_STREQ(nodes.joints[0].name, "thumb-metacarpal");
@@ -151,7 +151,7 @@ TEST(HandNodes, NamesAreThoseOfHandRigs) {
 }
 
 TEST(HandNodes, AChildsPlaceIsThatInItsParent) {
-  const HeldHand h = held(left_hand(), Pose::articulated, GRIP);
+  const HeldHand h = held(left_hand(), Pose::articulated, SHOWN_GRIP);
   const HandNodes nodes = hand_nodes(h.scene.hand, h.grip, h.result);
   const HandNode &a = nodes.joints[10], &b = nodes.joints[11];
   const Triple within = relative_position(a, b.position);

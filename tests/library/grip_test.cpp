@@ -15,17 +15,12 @@
 #include "library/status.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
+#include "tests/library/expect_same.h"
 
 namespace wholehand {
 namespace {
 
-void expect_same(double c, double cpp, const char* what) {
-  EXPECT_EQ(std::memcmp(&c, &cpp, sizeof c), 0) << what << ": " << c << " and " << cpp;
-}
-template <std::size_t N>
-void expect_same(const double* c, const std::array<double, N>& cpp, const char* what) {
-  for (std::size_t k = 0; k < N; ++k) expect_same(c[k], cpp[k], what);
-}
+using wholehand::expect_same;
 
 void expect_same(const wh_grip_result& c, const GripResult& cpp, const GripScore& score) {
   EXPECT_STREQ(c.reason, "");

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstring>
 #include <memory>
 
 #include "grips/hand_nodes.h"
@@ -14,12 +13,15 @@
 #include "live/session.h"
 #include "live/vessel_tracker.h"
 #include "live/workspace.h"
+#include "tests/library/expect_same.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"
 
 namespace wholehand {
 namespace {
+
+using wholehand::expect_same;
 
 wh_measurement measured(const GripperState& state, std::int64_t tick) {
   wh_measurement in;
@@ -31,13 +33,6 @@ wh_measurement measured(const GripperState& state, std::int64_t tick) {
   in.buttons = state.buttons;
   return in;
 }
-
-// Equal to the bit, NaN too.
-template <std::size_t N>
-void expect_same(const double* c, const std::array<double, N>& cpp, const char* what) {
-  EXPECT_EQ(std::memcmp(c, cpp.data(), sizeof cpp), 0) << what << ": " << c[0] << " and " << cpp[0];
-}
-void expect_same(double c, double cpp, const char* what) { expect_same(&c, std::array<double, 1>{cpp}, what); }
 
 void expect_same(const wh_session_output& out, const Tick& tick) {
   EXPECT_EQ(out.state, static_cast<int>(tick.state));

@@ -26,7 +26,7 @@
 namespace wholehand {
 namespace {
 
-constexpr double ROUNDING = 1e-15;  // m: double precision of some 10 cm
+constexpr double PLACE_ROUNDING = 1e-15;  // m: double precision of some 10 cm
 
 core_f64::Vessel kernel_lattice(const PreparedLattice& lattice) {
   core_f64::Vessel vessel;
@@ -48,8 +48,8 @@ TEST(MeshLattice, SamplesAreDistancesWhereTheyShouldBe) {
     const core_f64::Vessel vessel = kernel_lattice(lattice);
     const std::array<int, 3> counts{lattice.nx, lattice.ny, lattice.nz};
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(lattice.origin[k], mesh.facts.low[k] - 8e-3 - 2 * 5e-3, ROUNDING);
-      EXPECT_GE(lattice.origin[k] + (counts[k] - 1) * 5e-3, mesh.facts.high[k] + 8e-3 + 2 * 5e-3 - ROUNDING);
+      EXPECT_NEAR(lattice.origin[k], mesh.facts.low[k] - 8e-3 - 2 * 5e-3, PLACE_ROUNDING);
+      EXPECT_GE(lattice.origin[k] + (counts[k] - 1) * 5e-3, mesh.facts.high[k] + 8e-3 + 2 * 5e-3 - PLACE_ROUNDING);
     }
     for (int k = 0; k < lattice.nz; ++k)
       for (int j = 0; j < lattice.ny; ++j)

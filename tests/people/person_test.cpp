@@ -13,7 +13,7 @@
 namespace wholehand {
 namespace {
 
-constexpr int COUNT = 20000;
+constexpr int PEOPLE = 20000;
 constexpr std::uint64_t SEED = 11;
 
 // Of a population, as it comes (Welford).
@@ -55,7 +55,7 @@ bool same(const Person& a, const Person& b) {
 TEST(Person, TraitsHaveTheMomentsAskedFor) {
   const PeopleData people;
   std::vector<Moments> moments(TRAIT_COUNT);
-  for (std::uint64_t n = 0; n < COUNT; ++n) {
+  for (std::uint64_t n = 0; n < PEOPLE; ++n) {
     const Person person = draw_person(people, SEED, n);
     for (std::size_t k = 0; k < TRAIT_COUNT; ++k) moments[k].add(person.traits[k]);
   }
@@ -70,7 +70,7 @@ TEST(Person, HandsHaveTheMomentsOfTheSurvey) {
   Moments length[2], breadth[2], strength[2];
   double products[2] = {};
   const PeopleData people;
-  for (std::uint64_t n = 0; n < COUNT; ++n) {
+  for (std::uint64_t n = 0; n < PEOPLE; ++n) {
     const Person person = draw_person(people, SEED, n);
     const int s = person.sex == Sex::female ? 0 : 1;
     length[s].add(person.hand.length);
@@ -78,7 +78,7 @@ TEST(Person, HandsHaveTheMomentsOfTheSurvey) {
     strength[s].add(of(person.traits, Trait::strength));
     products[s] += person.hand.length * person.hand.breadth;
   }
-  EXPECT_NEAR(length[0].count, COUNT / 2, 5 * std::sqrt(COUNT / 4.0));
+  EXPECT_NEAR(length[0].count, PEOPLE / 2, 5 * std::sqrt(PEOPLE / 4.0));
   for (int s = 0; s < 2; ++s) {
     const HandSurvey& survey = hand_survey(s == 0 ? Sex::female : Sex::male);
     expect_moments(length[s], survey.length.mean, survey.length.deviation, 3, "length");
@@ -92,8 +92,8 @@ TEST(Person, HandsHaveTheMomentsOfTheSurvey) {
   Moments women;
   PeopleData few;
   few.women = 0.2;
-  for (std::uint64_t n = 0; n < COUNT; ++n) women.add(draw_person(few, SEED, n).sex == Sex::female);
-  EXPECT_NEAR(women.mean(), 0.2, 5 * std::sqrt(0.2 * 0.8 / COUNT));
+  for (std::uint64_t n = 0; n < PEOPLE; ++n) women.add(draw_person(few, SEED, n).sex == Sex::female);
+  EXPECT_NEAR(women.mean(), 0.2, 5 * std::sqrt(0.2 * 0.8 / PEOPLE));
 }
 
 TEST(Person, SegmentsScatterAsPublishedLessTheScatterOfLengths) {
@@ -103,7 +103,7 @@ TEST(Person, SegmentsScatterAsPublishedLessTheScatterOfLengths) {
   EXPECT_NEAR(segment_deviation(4), 0.10725, 1e-4);  // the index finger's proximal one
   EXPECT_NEAR(segment_deviation(6), 0.10097, 1e-4);  // its last one with the pulp
   std::vector<Moments> moments(SEGMENT_COUNT);
-  for (std::uint64_t n = 0; n < COUNT; ++n) {
+  for (std::uint64_t n = 0; n < PEOPLE; ++n) {
     const Person person = draw_person({}, SEED, n);
     for (std::size_t k = 0; k < SEGMENT_COUNT; ++k) moments[k].add(person.segments[k]);
   }
@@ -115,7 +115,7 @@ TEST(Person, GraspsScatterAboutTheirPerson) {
   const PeopleData people;
   const Person person = draw_person(people, SEED, 3);
   std::vector<Moments> moments(TRAIT_COUNT);
-  for (std::uint64_t g = 0; g < COUNT; ++g) {
+  for (std::uint64_t g = 0; g < PEOPLE; ++g) {
     const Traits traits = draw_grasp(people, person, SEED, 3, 1, g);
     for (std::size_t k = 0; k < TRAIT_COUNT; ++k) moments[k].add(traits[k]);
   }
