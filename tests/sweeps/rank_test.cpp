@@ -279,7 +279,7 @@ TEST(GripListsTest, OtherSweepsAndDamageAreRefusedWithTheirLine) {
   expect_refused(edited(csv, "\ncup,2,", "\ncup,0,"), ":3: rank 0");
   expect_refused(edited(csv, "\ncup,2,", "\nmug,2,"), ":3: the sweep has no vessel 'mug'");
   expect_refused(edited(csv, ",result.nc," + id, "9999,result.nc," + id), ":2: grip '");
-  expect_refused(edited(csv, "\ncup,2,", "\ncup,2,,"), ":3: the row has 43 cells and the header has 42");
+  expect_refused(edited(csv, "\ncup,2,", "\ncup,2,,"), ":3: the row has 44 cells and the header has 43");
 }
 
 TEST(GripListsTest, AnotherSceneDeviceOrPrecisionIsAnotherSweep) {
