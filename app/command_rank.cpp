@@ -30,7 +30,7 @@ namespace wholehand {
 namespace {
 
 struct RankArguments {
-  std::string weights, by, best, apart, glb, output;
+  std::string weights, best, apart, glb, output;
   std::vector<std::string> results, where;
   bool least_bad = false;
   ListArguments list;
@@ -102,15 +102,6 @@ OutputNames glb_names(const std::string& list) {
   OutputNames names;
   names.stem = list.ends_with(".csv") ? list.substr(0, list.size() - 4) : list;
   return names;
-}
-
-// As many as the sweep listed, or what its scene asks for, or 20 where that is none.
-std::size_t usual_length(const SweepResult& result, const Scene& scene, const Plan& plan) {
-  std::size_t most = 0;
-  if (result.lists_best())
-    for (const auto& list : lists_of_sweep(result, scene, plan)) most = std::max(most, list.size());
-  if (most > 0) return most;
-  return scene.output.best > 0 ? static_cast<std::size_t>(scene.output.best) : static_cast<std::size_t>(OutputData().best);
 }
 
 std::vector<JointList> joint_lists(const RankedResults& results, const RankRequest& request) {
@@ -192,7 +183,7 @@ std::string joint_csv(const RankedResults& results, const std::vector<JointList>
 }
 
 ExitCode rank(const RankArguments& arguments) {
-  check_rank_by(arguments.by);
+  check_rank_by(arguments.list.by);
   ListView view = arguments.list.view();
   const int glb = arguments.glb.empty() ? 0 : static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (glb > 0 && arguments.output.empty())
@@ -208,7 +199,8 @@ ExitCode rank(const RankArguments& arguments) {
     check_one_rule(*results.front(), one, arguments.weights);
   }
   const RankedResult& first = *results.front();
-  RankRequest request{arguments.weights, arguments.where, 0, 0, 0, arguments.least_bad, read_rank_by(arguments.by, first.scene)};
+  RankRequest request{
+      arguments.weights, arguments.where, 0, 0, 0, arguments.least_bad, read_rank_by(arguments.list.by, first.scene)};
   view.by = request.by;
   for (const auto& one : results) request.best = std::max(request.best, usual_length(one->result, one->scene, one->plan));
   if (!arguments.best.empty())
@@ -263,9 +255,6 @@ void add_rank_command(CLI::App& app, Action& action) {
   add("--where", arguments->where, "CONDITION",
       "List only grips that meet this condition: \"fingers_used >= 4 and palm_depth_mm < 2\"; given again: that one too")
       ->allow_extra_args(false);
-  add("--rank-by", arguments->by, "KEY",
-      "score, robust (10th percentile over the deviations of [robust]; the default where the scene has it), worst_effort or push")
-      ->check(offered("score robust worst_effort push"));
   add("--best", arguments->best, "N", "Number of grips to list for each vessel (default: as many as the sweep listed)");
   add_list_options(*command, arguments->list);
   add("--apart-mm", arguments->apart, "A",

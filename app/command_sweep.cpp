@@ -15,6 +15,7 @@
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "sweeps/auto_backend.h"
+#include "sweeps/rank.h"
 #include "sweeps/run.h"
 
 namespace wholehand {
@@ -36,6 +37,8 @@ ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
   if (!arguments.precision.empty()) options.precision = parse_precision(arguments.precision);
   if (!arguments.best.empty()) options.best = static_cast<int>(parse_integer(arguments.best, "--best", ranges::BEST));
   options.list = arguments.list.view();
+  check_rank_by(arguments.list.by);
+  options.rank_by = arguments.list.by;
   if (!arguments.glb.empty()) options.glb = static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (!arguments.threads.empty())
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));

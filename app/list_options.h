@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options --list and --wide: how much of a list of grips a command prints.
+// The options --list, --wide and --rank-by: how much of a list of grips a command prints, and in which order.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@
 namespace wholehand {
 
 struct ListArguments {
-  std::string rows;
+  std::string rows, by;
   bool is_wide = false;
 
   // Throws Error (usage). `by` is the default.
@@ -30,6 +30,14 @@ inline void add_list_options(CLI::App& command, ListArguments& arguments) {
       ->type_name("N")
       ->check(not_empty());
   command.add_flag("--wide", arguments.is_wide, "Show all columns of the lists, and all counts");
+  command
+      .add_option(
+          "--rank-by", arguments.by,
+          "score, robust (10th percentile over the deviations of [robust]; the default where the scene has it), worst_effort "
+          "or push")
+      ->type_name("KEY")
+      ->check(offered("score robust worst_effort push"))
+      ->check(not_empty());
 }
 
 }  // namespace wholehand

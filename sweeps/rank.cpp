@@ -28,7 +28,7 @@ namespace wholehand {
 namespace {
 
 constexpr const char* NEEDS_EFFORTS =
-    "needs efforts, which the scene of this file does not have ([tilts], and [strength] without efforts = false)";
+    "needs efforts, which the scene does not have ([tilts], and [strength] without efforts = false)";
 
 constexpr std::size_t GRIPS_AT_ONCE = 1 << 16;  // grips read at once
 constexpr double LARGEST_WEIGHT = 1000;
@@ -39,18 +39,50 @@ std::string variable_of(std::size_t term) { return fmt::format("score_{}", TERMS
 
 bool has_term(const Scene& scene, std::size_t term) { return term < 4 || !scene.tilts.empty(); }
 
-// The variables of these names; throws for all that the file lacks.
-std::vector<const Variable*> needed(const SweepResult& result, const std::vector<std::string>& names) {
+using FindVariable = std::function<const Variable*(const std::string&)>;  // null where it is not there
+
+FindVariable find_in(const SweepResult& result) {
+  return [&result](const std::string& name) { return result.find(name); };
+}
+
+// The variables of these names; throws for all that are not there. `who` lacks them.
+std::vector<const Variable*> needed(const FindVariable& find, const std::vector<std::string>& names, const std::string& who) {
   std::vector<const Variable*> variables;
   std::vector<std::string> missing;
   for (const std::string& name : names) {
-    variables.push_back(result.find(name));
+    variables.push_back(find(name));
     if (!variables.back()) missing.push_back(name);
   }
   if (missing.empty()) return variables;
   throw usage_error(
-      fmt::format("{}: lacks {}, as keep of the sweep does not name {}; add {} to keep, or remove keep, and sweep again",
-                  result.path(), joined(missing, ", "), missing.size() == 1 ? "it" : "them", missing.size() == 1 ? "it" : "them"));
+      fmt::format("{} lacks {}, as keep of the sweep does not name {}; add {} to keep, or remove keep, and sweep again", who,
+                  joined(missing, ", "), missing.size() == 1 ? "it" : "them", missing.size() == 1 ? "it" : "them"));
+}
+
+std::vector<const Variable*> needed(const SweepResult& result, const std::vector<std::string>& names) {
+  return needed(find_in(result), names, result.path() + ":");
+}
+
+// What tells whether a grip is listed.
+std::vector<std::string> eligible_names(const Scene& scene) {
+  return has_effort(scene) ? std::vector<std::string>{"plausible", "not_held"} : std::vector<std::string>{"plausible"};
+}
+
+// What a list is in the order of, beside the scores.
+std::vector<std::string> key_names(RankBy by) {
+  if (by == RankBy::worst_effort) return {"worst_effort"};
+  if (by == RankBy::push) return {"push"};
+  return {};
+}
+
+// What scores by these weights are made of: the sweep's own where the weights are, else its terms.
+std::vector<std::string> score_names(const std::array<double, 6>& weights, const Scene& scene, const FindVariable& find) {
+  std::vector<std::string> names;
+  for (std::size_t term = 0; term < weights.size(); ++term)
+    if (weights[term] > 0) names.push_back(variable_of(term));
+  const bool has_terms = std::all_of(names.begin(), names.end(), [&](const std::string& name) { return find(name); });
+  if (weights == effective_weights(scene) && (find("score") || !has_terms)) return {"score"};
+  return names;
 }
 
 // Values that a condition may name beside the variables: numbers of sources from variable_catalogue().size() on, by PLACE_*; then the height in m.
@@ -96,17 +128,12 @@ class Scores {
  public:
   Scores(const SweepResult& result, const Scene& scene, const std::string& weights)
       : result_(result), scene_(scene), weights_(read_weights(weights, scene)) {
-    const bool is_own = is_sweeps_own();
-    std::vector<std::string> names;
-    for (std::size_t term = 0; term < weights_.size(); ++term)
-      if (weights_[term] > 0) names.push_back(variable_of(term));
-    const bool has_terms = std::all_of(names.begin(), names.end(), [&](const std::string& name) { return result.find(name); });
-    if (is_own && (result.find("score") || !has_terms)) {
-      variables_ = needed(result, {"score"});
+    const std::vector<std::string> names = score_names(weights_, scene, find_in(result));
+    variables_ = needed(result, names);
+    if (names.front() == "score") {
       factors_ = {1};
       return;
     }
-    variables_ = needed(result, names);
     for (const double weight : weights_)
       if (weight > 0) factors_.push_back(weight);
   }
@@ -289,8 +316,7 @@ bool none_holds(const Ranking& ranking, std::size_t list) {
 class RankKeys {
  public:
   RankKeys(const SweepResult& result, Scores& scores, RankBy by) : result_(result), scores_(scores) {
-    if (by == RankBy::worst_effort) variable_ = needed(result, {"worst_effort"})[0];
-    if (by == RankBy::push) variable_ = needed(result, {"push"})[0];
+    for (const Variable* variable : needed(result, key_names(by))) variable_ = variable;
     sign_ = by == RankBy::worst_effort ? -1 : 1;
   }
 
@@ -440,11 +466,30 @@ RankBy read_rank_by(const std::string& text, const Scene& scene) {
   if (text == "score") return RankBy::score;
   const bool needs_effort = text == "worst_effort" || text == "push";
   if (text == "robust" && !scene.robust)
-    throw usage_error(fmt::format("--rank-by robust needs [robust], which the scene of this file does not have; allowed: score{}",
+    throw usage_error(fmt::format("--rank-by robust needs [robust], which the scene does not have; allowed: score{}",
                                   has_effort(scene) ? ", worst_effort or push" : ""));
   if (needs_effort && !has_effort(scene))
     throw usage_error(fmt::format("--rank-by {} {}; allowed: score{}", text, NEEDS_EFFORTS, scene.robust ? " or robust" : ""));
   return text == "robust" ? RankBy::robust : text == "push" ? RankBy::push : RankBy::worst_effort;
+}
+
+void check_rankable(const Scene& scene, const std::vector<const Variable*>& variables, RankBy by) {
+  const FindVariable find = [&](const std::string& name) {
+    const auto there = std::find_if(variables.begin(), variables.end(), [&](const Variable* one) { return one->name == name; });
+    return there == variables.end() ? nullptr : *there;
+  };
+  std::vector<std::string> names = eligible_names(scene);
+  for (const auto& more : {key_names(by), score_names(effective_weights(scene), scene, find)})
+    names.insert(names.end(), more.begin(), more.end());
+  needed(find, names, "--rank-by: the result");
+}
+
+std::size_t usual_length(const SweepResult& result, const Scene& scene, const Plan& plan) {
+  std::size_t most = 0;
+  if (result.lists_best())
+    for (const auto& list : lists_of_sweep(result, scene, plan)) most = std::max(most, list.size());
+  if (most > 0) return most;
+  return scene.output.best > 0 ? static_cast<std::size_t>(scene.output.best) : static_cast<std::size_t>(OutputData().best);
 }
 
 std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan) {
@@ -474,7 +519,7 @@ std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene
 
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core) {
-  needed(result, has_effort(scene) ? std::vector<std::string>{"plausible", "not_held"} : std::vector<std::string>{"plausible"});
+  needed(result, eligible_names(scene));
   if (request.least_bad && !has_effort(scene)) throw usage_error(fmt::format("--least-bad: {}", NEEDS_EFFORTS));
   if (request.least_bad) needed(result, {"worst_effort"});
   Scores scores(result, scene, request.weights);

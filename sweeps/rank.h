@@ -30,6 +30,12 @@ RankBy read_rank_by(const std::string& text, const Scene& scene);
 // The same before a scene is known: throws for a text that is none of these.
 void check_rank_by(const std::string& text);
 
+// Throws Error (usage) where a result with these variables alone lacks what rank_grips needs to rank by the sweep's own weights.
+void check_rankable(const Scene& scene, const std::vector<const Variable*>& variables, RankBy by);
+
+// How many grips `rank` lists unless it is given a number: as many as the sweep listed, or what its scene asks for, or 20 where that is none.
+std::size_t usual_length(const SweepResult& result, const Scene& scene, const Plan& plan);
+
 struct RankRequest {
   std::string weights;             // as of read_weights; empty: the sweep's own scores
   std::vector<std::string> where;  // conditions, all of which a grip meets

@@ -20,7 +20,6 @@
 #include "sweeps/explain.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/idle_notes.h"
-#include "sweeps/rank.h"
 #include "sweeps/refine.h"
 #include "sweeps/resume.h"
 #include "sweeps/robust.h"
@@ -50,6 +49,7 @@ Sweep::Sweep(const Scene& scene, const SweepOptions& options, const SweepParts& 
       parts_(parts),
       names_(output_names(options.output.empty() ? default_output(scene) : options.output)),
       best_wanted_(static_cast<std::size_t>(std::max(0, options.best.value_or(scene.output.best)))),
+      by_(read_rank_by(options.rank_by, scene)),
       variables_(choose_variables(scene)),
       mark_interval_(options.mark_seconds) {}
 
@@ -60,6 +60,12 @@ void Sweep::check() const {
     throw usage_error(fmt::format("--glb {0}: the sweep keeps only the best {1} grips of each vessel; give --best {0} too",
                                   options_.glb, best_wanted_));
   }
+  if (!options_.rank_by.empty() && best_wanted_ == 0)
+    throw usage_error("--rank-by: the sweep lists no grips; give --best N above 0");
+  if (!has_usual_order() && options_.shards)
+    throw usage_error(
+        "--rank-by: orders the grips of one result, which --shards leaves to `wholehand merge`; `wholehand rank` takes it");
+  if (!has_usual_order()) check_rankable(scene_, variables_, by_);
   check_not_the_scene(names_.result, scene_);
   check_overwrites_result(names_.result);
   check_companions(scene_, names_, best_wanted_ > 0, has_score(), options_.glb);
@@ -180,7 +186,10 @@ bool Sweep::has_score() const {
 
 ExitCode Sweep::finished() const {
   check_complete(names_.result, scene_, options_.on == "core", precision(), variables_);
-  note(fmt::format("{} is complete, so nothing is left to do; the same command without --resume computes it again", names_.result));
+  note(fmt::format("{} is complete, so nothing is left to do; the same command without --resume computes it again{}", names_.result,
+                   has_usual_order() ? ""
+                                     : fmt::format(", and `wholehand rank {} --rank-by {}` lists its grips",
+                                                   one_line(names_.result), options_.rank_by)));
   return ExitCode::done;
 }
 
@@ -538,6 +547,16 @@ bool Sweep::keeps_least_bad() const {
   return kept == 4;
 }
 
+bool Sweep::has_usual_order() const { return by_ == usual_order(scene_); }
+
+Ranking Sweep::rank_finished(const RankRequest& request) const {
+  SweepResult result(names_.result);
+  result.use(scene_, plan());
+  RankRequest own = request;
+  if (own.best == 0) own.best = usual_length(result, scene_, plan());
+  return rank_grips(result, scene_, plan(), own, parts_.open_evaluator);
+}
+
 // What there is to say where no grip of a vessel holds.
 std::string Sweep::unheld(std::size_t v) const {
   const GripCounts& counts = mark_.vessels[v].counts;
@@ -560,10 +579,8 @@ std::vector<std::string> Sweep::unheld_lists(const BestLists& best) const {
   std::size_t empty = 0;
   for (std::size_t list = 0; list < best.size(); ++list) empty += is_unheld(list) ? 1 : 0;
   if (empty == 0 || is_quiet() || best_wanted_ == 0 || !keeps_least_bad() || has_shards()) return lines;
-  SweepResult result(names_.result);
-  result.use(scene_, plan());
   const std::shared_ptr<const Evaluator> core = parts_.open_evaluator();
-  const Ranking nearest = rank_grips(result, scene_, plan(), {"", {}, 1, 0, 0, true}, [&] { return core; });
+  const Ranking nearest = rank_finished({"", {}, 1, 0, 0, true});
   for (std::size_t list = 0; list < best.size(); ++list) {
     if (!is_unheld(list) || nearest.lists[list].empty()) continue;
     const BestGrip& grip = nearest.lists[list].front();
@@ -592,8 +609,10 @@ void Sweep::finish(ResultFile& file, BestLists best) {
       ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust});
   }
   file.check_own();
-  // the result's own name comes last: when it is there, all is
-  std::vector<std::string> files = write_companions(companions(), best, has_heat_map() ? &maps_ : nullptr, info_);
+  const auto write_others = [&] { return write_companions(companions(), best, has_heat_map() ? &maps_ : nullptr, info_); };
+  // The result's own name comes last: when it is there, all is. Lists of another order are made of the finished result.
+  std::vector<std::string> files;
+  if (has_usual_order()) files = write_others();
   // The values are synced first. Then little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
   if (is_marked_) save(file);
   file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
@@ -601,9 +620,15 @@ void Sweep::finish(ResultFile& file, BestLists best) {
   if (is_parted) mark_.shards->is_ended = true;
   if (is_marked_ || is_parted) save(file);  // which now vouches for the ending, too
   if (!is_parted) file.finish(std::move(checksums_));
+  if (!has_usual_order()) {
+    Ranking ranking = rank_finished({"", {}, 0, scene_.output.apart, 0, false, by_});
+    if (!ranking.note.empty()) note(ranking.note);
+    best = std::move(ranking.lists);
+    files = write_others();
+  }
   files.insert(files.begin(), is_parted ? names_.partial : names_.result);
   ListView view = options_.list;
-  view.by = usual_order(scene_);
+  view.by = by_;
   const std::vector<std::string> failures = unheld_lists(best);
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const std::string& name = scene_.vessels[v].name;

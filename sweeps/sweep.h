@@ -17,6 +17,7 @@
 #include "sweeps/list_chooser.h"
 #include "sweeps/mark.h"
 #include "sweeps/plan.h"
+#include "sweeps/rank.h"
 #include "sweeps/result_contents.h"
 #include "sweeps/result_file.h"
 #include "sweeps/sweep_options.h"
@@ -105,6 +106,7 @@ class Sweep {
   const SweepParts& parts_;
   OutputNames names_;
   std::size_t best_wanted_;
+  RankBy by_;  // what the lists that are shown and written are ranked by
   std::vector<const Variable*> variables_;
   std::optional<Plan> plan_;
   std::unique_ptr<Backend> backend_;
@@ -120,7 +122,9 @@ class Sweep {
   double kernel_seconds_ = 0;
 
  private:
-  void check_room() const;  // on the disk
+  void check_room() const;       // on the disk
+  bool has_usual_order() const;  // or the lists are ranked by another key in the end
+  Ranking rank_finished(const RankRequest& request) const;
   CompanionRequest companions() const;
   std::vector<int> swept_fields() const;
   bool has_score() const;

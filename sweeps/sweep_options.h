@@ -25,7 +25,9 @@ struct SweepOptions {
   int glb = 0;                         // so many of the best of each vessel are written as glTF
   bool resume = false;
   bool explain = false;
-  ListView list = {};  // what is printed of each list; `by` is not read: a sweep's lists have the usual order
+  ListView list = {};  // what is printed of each list; `by` is not read
+  std::string rank_by =
+      {};              // what the lists are ranked by, as of read_rank_by; the result's best grips always have the usual order
   bool refine = true;  // the best grips, see sweeps/refine.h
   int threads = 0;     // of the core, 0: all
   // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.

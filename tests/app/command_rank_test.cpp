@@ -46,6 +46,45 @@ TEST_F(CommandRank, WithoutOptionsItIsTheSweepsOwnListByteForByte) {
   EXPECT_NE(outcome.output.find("wrote " + list), std::string::npos) << outcome.output;
 }
 
+TEST_F(CommandRank, ASweepListsByAKeyWhatRankListsOfItsResult) {
+  const std::string sweep = "PROGRAM sweep " + (folder / "small.toml") + " --on core --best 4 --glb 1 -o " + (folder / "b.nc");
+  std::set<std::string> lists;
+  for (const std::string by : {"score", "robust", "worst_effort", "push"}) {
+    const Outcome swept = run(sweep + " --rank-by " + by + " 2>&1");
+    ASSERT_EQ(swept.code, 0) << swept.output;
+    const Outcome ranked = run("PROGRAM rank " + (folder / "b.nc") + " --rank-by " + by + " --glb 1 -o " + list + " 2>&1");
+    ASSERT_EQ(ranked.code, 0) << ranked.output;
+    EXPECT_EQ(file_text(folder / "b.best.csv"), file_text(list)) << by;
+    EXPECT_EQ(file_text(folder / "b.tumbler.1.glb"), file_text(folder / "list.tumbler.1.glb")) << by;
+    const std::string table =
+        ranked.output.substr(ranked.output.find("\n  rank "), ranked.output.find("\n\nwrote ") - ranked.output.find("\n  rank "));
+    EXPECT_NE(swept.output.find(table), std::string::npos) << swept.output << ranked.output;
+    EXPECT_EQ(read_values(folder / "b.nc", "best_grip"), read_values(result, "best_grip")) << "the scene's own order";
+    lists.insert(file_text(list));
+  }
+  EXPECT_GE(lists.size(), 3u) << "the keys order the grips differently";
+}
+
+TEST_F(CommandRank, ASweepRefusesAKeyThatItCannotRankBy) {
+  const std::string scene = file_text(folder / "small.toml"), path = folder / "other.toml", other = folder / "other.nc";
+  const auto refused = [&](const std::string& text, const std::string& options, const std::string& message) {
+    write_file(path, text);
+    expect_error("sweep " + path + " --on core -o " + other + " --rank-by " + options, 2, message);
+  };
+  const auto kept = [&](const std::string& names) { return edited(scene, "best = 5", "best = 5\nkeep = [" + names + "]"); };
+  const std::string without = scene.substr(0, scene.find("[robust]"));
+  refused(scene, "luck", "--rank-by 'luck'; allowed: score, robust, worst_effort or push");
+  refused(without, "robust",
+          "--rank-by robust needs [robust], which the scene does not have; allowed: score, worst_effort or push");
+  refused(without + "[strength]\nefforts = false\n", "push", "--rank-by push needs efforts");
+  refused(kept("'score', 'plausible', 'not_held'"), "worst_effort",
+          "--rank-by: the result lacks worst_effort, as keep of the sweep does not name it; add it to keep");
+  refused(kept(""), "score", "--rank-by: the result lacks plausible, not_held, score, as keep");
+  refused(scene, "score --best 0", "--rank-by: the sweep lists no grips");
+  EXPECT_FALSE(file_exists(other));
+  EXPECT_FALSE(file_exists(other + ".partial")) << "before anything is computed";
+}
+
 TEST_F(CommandRank, AListIsHandedBack) {
   ASSERT_EQ(run("PROGRAM rank " + result + " --rank-by score --where 'roll_deg < 0' --best 3 -o " + list + " >/dev/null").code, 0);
   const std::string ranked = "PROGRAM grip " + result + " --vessel tumbler --rank 2 --json", by_list = ranked + " --list " + list;

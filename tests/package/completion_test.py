@@ -141,7 +141,7 @@ class Bash(unittest.TestCase):
             names = whole | {name.split(":")[0] + ":" for name in names if ":" in name and name.split(":")[0] not in whole}
             self.assertEqual(set(words), names, f"{command} {option}: {message}")
             checked += 1
-        self.assertEqual(checked, 8)
+        self.assertEqual(checked, 9)
 
     def test_scenes_and_files(self):
         own = ["a b.toml", "mine.toml"]

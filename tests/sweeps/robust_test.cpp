@@ -476,6 +476,23 @@ TEST(RobustSweep, RefusesToRankByWhatTheSceneLacks) {
   EXPECT_EQ(read_rank_by("", without), RankBy::score);
 }
 
+TEST(RobustSweep, ShardsHaveNoListsToRank) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({beaker1()});
+  scene.robust = RobustData();
+  SweepOptions options;
+  options.output = folder / "a.nc";
+  options.shards = "";
+  options.rank_by = "score";
+  try {
+    run_sweep(scene, options);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("`wholehand rank` takes it"), std::string::npos) << error.what();
+  }
+}
+
 using RobustRun = RunTest;
 
 Scene robust_fake_scene() {
