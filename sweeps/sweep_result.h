@@ -77,7 +77,7 @@ class SweepResult {
   bool lists_best() const;
   std::vector<Candidate> best(std::size_t vessel, std::size_t hand_scale = 0) const;
 
-  // Where the sweep refined the grips of best(), in their order; nothing where it did not, as before there were such.
+  // Where the sweep refined the grips of best(), in their order; nothing where it did not (`sweep --no-refine`).
   std::vector<std::optional<RefinedGrip>> refined(std::size_t vessel, std::size_t hand_scale = 0) const;
 
   // The robust scores of the grips of best(), in their order; nothing in a scene without [robust]. NaN where a grip has none.

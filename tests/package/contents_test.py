@@ -43,6 +43,7 @@ def elf_files():
 
 class Contents(unittest.TestCase):
     def test_packages_need_each_other_in_the_same_version(self):
+        self.assertIn(f"\nversion: {VERSION[:-2]}\n", text(SOURCE + "/CITATION.cff"))
         library = "libwholehand" + ABI
         expected = {"wholehand": "wholehand-common", "wholehand-common": None, library: "wholehand-common",
                     "libwholehand-dev": library, "python3-wholehand": "wholehand-common"}
