@@ -97,6 +97,18 @@ void check_one_rule(const RankedResult& first, const RankedResult& other, const 
   }
 }
 
+// By which one rule several results are ranked together; empty for one result.
+std::string rule_line(const RankedResults& results, const RankArguments& arguments, RankBy by) {
+  if (results.size() < 2) return "";
+  const auto rules = rules_of(results.front()->scene);
+  std::string key = arguments.list.by.empty() ? (by == RankBy::robust ? "robust" : "score") : arguments.list.by;
+  if (!arguments.weights.empty()) key += fmt::format(" with weights {}", one_line(arguments.weights));
+  std::vector<std::string> shared;
+  for (const RulePlace place : {RULE_HAND, RULE_STRENGTH, RULE_ROBUST})
+    shared.push_back(fmt::format("{} '{}'", rules[place].name, rules[place].text));
+  return fmt::format("{} results ranked by {}; all have {}\n\n", results.size(), key, joined(shared, ", "));
+}
+
 // LIST.<vessel>.<rank>.glb beside LIST.csv.
 OutputNames glb_names(const std::string& list) {
   OutputNames names;
@@ -226,7 +238,7 @@ ExitCode rank(const RankArguments& arguments) {
     if (!one->ranking.note.empty()) say_note(one->ranking.note);
   }
   const std::vector<JointList> lists = joint_lists(results, request);
-  print(ranking_text(results, lists, arguments, view));
+  print(rule_line(results, arguments, request.by) + ranking_text(results, lists, arguments, view));
   if (arguments.output.empty()) return ExitCode::done;
   std::vector<std::string> files{arguments.output};
   write_whole_file(arguments.output, joint_csv(results, lists), false);

@@ -214,6 +214,12 @@ TEST(RankSeveral, GripsOfOneRuleShareAList) {
   for (const auto& one : found["cup"]) sweeps.insert(std::get<2>(one));
   EXPECT_EQ(sweeps.size(), 2u) << "grips of both are among the best";
   EXPECT_EQ(found.size(), 3u) << "a cup of both, and a bottle and a flask of one each";
+  const std::string rule = "; all have hand 'right, 187.2 x 83.2 mm, scale 1', strength 'none', robust settings 'none'\n\ncup: ";
+  EXPECT_TRUE(outcome.output.starts_with("2 results ranked by score" + rule)) << outcome.output;
+  const std::string both = "PROGRAM rank " + low.path + " " + high.path;
+  const Outcome weighted = run(both + " --rank-by score --weights depth=1");
+  EXPECT_TRUE(weighted.output.starts_with("2 results ranked by score with weights depth=1" + rule)) << weighted.output;
+  EXPECT_EQ(run("PROGRAM rank " + low.path).output.find("ranked by"), std::string::npos) << "of one result there is no need";
   for (const SweptScene* swept : {&low, &high}) {
     EXPECT_NE(outcome.output.find("\n  " + swept->path + ": "), std::string::npos) << "counts: " << outcome.output;
     EXPECT_NE(outcome.output.find("  " + swept->path + "  "), std::string::npos) << "rows: " << outcome.output;
