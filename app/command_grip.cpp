@@ -192,8 +192,14 @@ ChosenGrip ranked_grip(const GripArguments& arguments) {
     if (arguments.refined) chosen.input = refined_grip(result, plan, chosen.vessel, place, rank);
     return chosen;
   }
-  throw usage_error(fmt::format("--rank {}: {} lists {} grip{} of {}", rank, is_own ? result.path() : arguments.list,
-                                lists[place].size(), lists[place].size() == 1 ? "" : "s", list_name(chosen.scene, plan, place)));
+  throw usage_error(
+      fmt::format("--rank {}: {} lists {} grip{} of {}", rank, is_own ? result.path() : arguments.list, lists[place].size(),
+                  lists[place].size() == 1 ? "" : "s", list_name(chosen.scene, plan, place)) +
+      (is_own && lists[place].empty() && has_effort(chosen.scene)
+           ? fmt::format("; `wholehand rank {} --least-bad -o LIST.csv`, where none holds, and --list LIST.csv show the "
+                         "nearest to holding",
+                         one_line(result.path()))
+           : ""));
 }
 
 ExitCode grip(const GripArguments& arguments) {

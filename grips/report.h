@@ -48,6 +48,10 @@ void add_quality(GripReport& report, const Scene& scene, std::size_t vessel);
 // out are null. Doubles read back as they were.
 std::string grip_json(const GripReport& report);
 
+// Whether a grip with this worst effort and this least friction that holds it runs out of friction before it runs out of strength: the
+// margin of friction is the smaller one, or no strength is enough.
+bool friction_fails_first(const Scene& scene, double effort, double friction_needed);
+
 // Whether the grip holds the vessel, with how much of the hand's strength, what fails first, and how sure that is: some sentences, each in a line.
 // `scene` is that of the report.
 std::string grip_verdict(const Scene& scene, const GripReport& report);

@@ -240,12 +240,12 @@ void write_score(std::string& out, const GripReport& report) {
 // What of the hand and the vessel fails first, and by how much.
 std::string first_to_fail(const Scene& scene, const GripHold& hold) {
   const char* fails = hold.worst <= 1 ? "would fail" : "fails";
-  const double strength = held_margin(hold.worst), friction = scene.force.friction / hold.friction_needed;
-  if (std::isfinite(hold.friction_needed) && friction < strength) {
+  if (friction_fails_first(scene, hold.worst, hold.friction_needed)) {
     return fmt::format("Friction {} first: the grip needs {:.3f}, and the vessel has {} (margin {}).\n", fails,
-                       hold.friction_needed, plain_text(scene.force.friction), fixed_text(friction, 2));
+                       hold.friction_needed, plain_text(scene.force.friction),
+                       fixed_text(scene.force.friction / hold.friction_needed, 2));
   }
-  return fmt::format("The strength of the hand {} first (margin {}).\n", fails, fixed_text(strength, 2));
+  return fmt::format("The strength of the hand {} first (margin {}).\n", fails, fixed_text(held_margin(hold.worst), 2));
 }
 
 std::string hold_verdict(const Scene& scene, const GripReport& report) {
@@ -263,6 +263,10 @@ std::string hold_verdict(const Scene& scene, const GripReport& report) {
 }
 
 }  // namespace
+
+bool friction_fails_first(const Scene& scene, double effort, double friction_needed) {
+  return std::isinf(effort) || (std::isfinite(friction_needed) && scene.force.friction / friction_needed < held_margin(effort));
+}
 
 std::string grip_verdict(const Scene& scene, const GripReport& report) {
   const GripResult& result = report.answer.result;

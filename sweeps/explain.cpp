@@ -331,7 +331,7 @@ class Explainer {
   void robust() {
     if (!scene_.robust || options_.best == 0) return;
     const std::size_t lists = scene_.vessels.size() * plan_.hand_scales(), count = static_cast<std::size_t>(scene_.robust->count);
-    const std::size_t listed = lists * std::min(options_.best, MOST_ROBUST), judged = ROBUST_CANDIDATES * listed;
+    const std::size_t listed = lists * std::min(options_.best, MOST_ROBUST), judged = lists * judged_grips(options_.best);
     const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_);
     const double each = microseconds(measure(scene_, fields, OUTLINE_SPECIALIZED, true, Precision::full));
     const auto cost = [&](std::size_t grips) { return static_cast<double>(grips * count) * each * 1e-6; };

@@ -55,7 +55,7 @@ class RobustRanking {
     const std::array<double, 6> weights = effective_weights(scene);
     largest_score_ = std::accumulate(weights.begin(), weights.end(), 0.0);
     for (std::size_t list = 0; list < lists.size(); ++list)
-      for (std::size_t i = 0; i < std::min(lists[list].size(), ROBUST_CANDIDATES * places_); ++i)
+      for (std::size_t i = 0; i < std::min(lists[list].size(), judged_grips(best)); ++i)
         judged_.push_back({list, &lists[list][i], {}});
   }
 
@@ -281,8 +281,12 @@ double largest_low(std::vector<double> known, std::size_t count) {
   return percentile_of(known, 0.1);
 }
 
+std::size_t judged_grips(std::size_t best) {
+  return best == 0 ? 0 : ROBUST_CANDIDATES * std::clamp(best, LEAST_ROBUST, MOST_ROBUST);
+}
+
 std::size_t robust_candidates(const Scene& scene, std::size_t best) {
-  return scene.robust ? std::max(best, ROBUST_CANDIDATES * std::min(best, MOST_ROBUST)) : best;
+  return scene.robust ? std::max(best, judged_grips(best)) : best;
 }
 
 bool rank_robustly(const OpenBackend& open, const Scene& scene, const Plan& plan, std::size_t best, const std::atomic<bool>* stop,

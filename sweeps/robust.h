@@ -22,6 +22,7 @@ constexpr int FRICTION_LEVELS = 8;            // values that a friction with a d
 constexpr double LEAST_HAND_FACTOR = 0.1;     // of the hand's size, however large its deviation
 constexpr std::size_t MOST_ROBUST = 100;      // places of a list that robust scores decide
 constexpr std::size_t ROBUST_CANDIDATES = 8;  // grips that are judged for each of these places
+constexpr std::size_t LEAST_ROBUST = 20;      // a shorter list is the start of one with so many places
 
 // One deviation: what is added to a grip's coordinates (m, rad), and by what its hand scale is multiplied.
 struct Deviation {
@@ -47,14 +48,18 @@ RobustScore robust_score(std::vector<double> scores, std::size_t held);
 // The largest 10th percentile that `count` scores can have, of which these are some; infinite where too few are known.
 double largest_low(std::vector<double> known, std::size_t count);
 
+// How many grips are judged for a list of `best`: ROBUST_CANDIDATES for each place that robust scores decide, and never fewer than a list of
+// LEAST_ROBUST has.
+std::size_t judged_grips(std::size_t best);
+
 // How many grips a list keeps, so that robust scores choose `best` of them. `best` in a scene without [robust].
 std::size_t robust_candidates(const Scene& scene, std::size_t best);
 
 // Opens what evaluates grips of a scene that differs from the sweep's in its friction alone.
 using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
 
-// In a scene with [robust], ranks each list by the 10th percentile of its grips, then by their mean, then as it was: the first min(best, MOST_ROBUST) places, for each of
-// which the first ROBUST_CANDIDATES grips of the list are judged. The grips on these places get their robust scores. What follows keeps its
+// In a scene with [robust], ranks each list by the 10th percentile of its grips, then by their mean, then as it was: the first min(best, MOST_ROBUST) places, for
+// which the first judged_grips(best) grips of the list are judged. The grips on these places get their robust scores. What follows keeps its
 // order, and the list ends with `best` grips. A deviation that is not eligible scores 0. A grip whose deviations so far
 // leave it no place is not judged further, which changes no list. The same bits however many grips the backend takes at once. `stop` may
 // be null; false: it was set, and no list has changed. `look` is called after each chunk and may set it. Throws Error (failure)

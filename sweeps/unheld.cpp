@@ -9,6 +9,7 @@
 
 #include "core/gather.h"
 #include "core/text.h"
+#include "grips/report.h"
 #include "grips/states.h"
 #include "system/readable.h"
 
@@ -74,11 +75,12 @@ std::string unheld_line(const Evaluator& core, const Scene& scene, const Plan& p
   const GripInput grip = plan.grip(vessel, nearest.grip);
   const Unheld found = what_would_hold(core, scene, vessel, grip);
   const bool is_resisted = std::isfinite(found.effort), has_friction = std::isfinite(found.friction_needed);
-  std::string line = fmt::format("no grip holds it: {}. Nearest to holding is grip {}{}, ",
-                                 is_resisted    ? "the strength of the hand fails first"
-                                 : has_friction ? "friction fails first"
-                                                : "no friction up to 10 is enough for how the hand touches it",
-                                 nearest.grip, place_of(plan, grip));
+  std::string line =
+      fmt::format("no grip holds it: {}. Nearest to holding is grip {}{}, ",
+                  !friction_fails_first(scene, found.effort, found.friction_needed) ? "the strength of the hand fails first"
+                  : has_friction                                                    ? "friction fails first"
+                                 : "no friction up to 10 is enough for how the hand touches it",
+                  nearest.grip, place_of(plan, grip));
   line += is_resisted ? fmt::format("whose worst effort is {}", fixed_text(found.effort, 3))
                       : "which no force holds in its worst state";
   std::vector<std::string> ways;

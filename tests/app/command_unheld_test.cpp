@@ -86,6 +86,12 @@ TEST_F(CommandUnheld, WhereNoGripHoldsOneLineSaysWhatFails) {
   EXPECT_TRUE(has(listed, ",1,,,,,,,")) << "not held, and so not refined: " << listed;
   const Outcome grip = run("PROGRAM grip " + result + " --vessel canister --rank 1 --list " + (folder / "l.csv"));
   EXPECT_TRUE(has(grip.output, ": the grip does not hold\n")) << grip.output;
+  const Outcome unlisted = run("PROGRAM grip " + result + " --vessel canister --rank 1 2>&1");
+  EXPECT_EQ(unlisted.code, 2);
+  EXPECT_TRUE(has(unlisted.output, "lists 0 grips of canister; `wholehand rank " + result +
+                                       " --least-bad -o LIST.csv`, where none holds, "
+                                       "and --list LIST.csv show the nearest to holding\n"))
+      << unlisted.output;
   const auto json =
       parse_json(run("PROGRAM grip " + result + " --vessel canister --rank 1 --json --list " + (folder / "l.csv")).output);
   EXPECT_EQ(json["not_held"], true);

@@ -362,11 +362,13 @@ TEST(Robust, ListsAreThoseOfAllDeviationsOfAllCandidates) {
     };
     auto ranked = candidates, whole = candidates;
     ASSERT_TRUE(rank_robustly(counting, scene, plan, BEST, nullptr, ranked));
+    auto first = candidates;
+    ASSERT_TRUE(rank_robustly(opens("core", Precision::full), scene, plan, 1, nullptr, first));
     std::size_t all = 0;
     for (std::size_t v = 0; v < whole.size(); ++v) {
       std::vector<BestGrip>& list = whole[v];
-      ASSERT_GE(list.size(), ROBUST_CANDIDATES * BEST);
-      list.resize(ROBUST_CANDIDATES * BEST);
+      list.resize(std::min(list.size(), judged_grips(BEST)));
+      ASSERT_GT(list.size(), ROBUST_CANDIDATES * BEST);
       all += list.size() * static_cast<std::size_t>(scene.robust->count);
       // each candidate alone: nothing to be compared with, so nothing is passed by
       for (BestGrip& grip : list) {
@@ -379,6 +381,8 @@ TEST(Robust, ListsAreThoseOfAllDeviationsOfAllCandidates) {
         return a.robust.low != b.robust.low ? a.robust.low > b.robust.low : a.robust.mean > b.robust.mean;
       });
       ASSERT_EQ(ranked[v].size(), BEST);
+      ASSERT_EQ(first[v].size(), 1u);
+      EXPECT_EQ(first[v][0].candidate.index, list[0].candidate.index) << "a shorter list starts otherwise";
       for (std::size_t place = 0; place < BEST; ++place) {
         EXPECT_EQ(ranked[v][place].candidate.index, list[place].candidate.index) << v << " " << place;
         EXPECT_EQ(ranked[v][place].robust.low, list[place].robust.low);

@@ -48,6 +48,8 @@ const std::string LIGHTER = edited(HEAVY, "wall_mm = 20", "wall_mm = 7");
 const std::string AT_THE_TOP =
     edited(edited(edited(HEAVY, "wall_mm = 20", "wall_mm = 4"), "{ from = 0.3, to = 0.9, count = 4 }", "[0.8, 0.9]"),
            "deg = [0, 45, 90]", "deg = [0, 10, 20, 45, 90]");
+// So light that the hand has strength to spare for a friction that is too low.
+const std::string SLIPPERY = edited(edited(HEAVY, "wall_mm = 20", "wall_mm = 1"), "fills = [0, 1]", "fills = [0]");
 
 struct Nearest {
   LeastBad grip;
@@ -112,7 +114,8 @@ TEST(Unheld, WhatIsSaidToHoldHolds) {
   };
   for (const Case& one : {Case{HEAVY, "strength of the hand fails first", 0.6},
                           Case{LIGHTER, "an empty vessel or keeping it upright would hold it", 0.6, true, true},
-                          Case{AT_THE_TOP, "deg would hold it", 0.6, false, true}, Case{HEAVY, "friction fails first", 0}}) {
+                          Case{AT_THE_TOP, "deg would hold it", 0.6, false, true}, Case{HEAVY, "friction fails first", 0},
+                          Case{SLIPPERY, "friction fails first", 0.05}}) {
     Scene scene = scene_from(one.text);
     scene.force.friction = one.friction;
     const auto core = make_core_evaluator(scene);
