@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <vector>
 
 #include "live/session.h"
@@ -59,6 +60,9 @@ TEST(VesselHistory, TellsAtAnyTickWhatTheTrackerHadThen) {
     expect_same(history.at(k), tracker.poses(), k);
   }
   expect_same(history.at(0), VesselTracker(scene).poses(), 0);  // asked again, out of order
+  const std::size_t last = ticks.size() - 1;
+  const VesselHistory part(scene, std::span(ticks).first(last));
+  expect_same(part.at(last), history.at(last - 1), last);  // what follows its ticks is not known
 }
 
 TEST(VesselHistory, OfAWholeSessionIsTheTrackers) {
