@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "advice/shown.h"
+#include "advice/moment.h"
 #include "system/block_signals.h"
 #include "system/clock.h"
 

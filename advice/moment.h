@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "advice/adviser.h"
+#include "device/shown_grip.h"
 #include "live/session.h"
 
 namespace wholehand {
@@ -15,5 +16,8 @@ namespace wholehand {
 // Adviser::advise.
 Advice advice_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses, Adviser& adviser, std::size_t grips,
                  bool keeps_line = false, const std::atomic<bool>* stop = nullptr);
+
+// The best grip, where it is better than the present one and the vessel is not held; else no grip (vessel -1).
+ShownGrip shown_grip(const Scene& scene, const Advice& advice, const Adviser& adviser);
 
 }  // namespace wholehand

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "advice/shown.h"
+#include "advice/moment.h"
 
 namespace wholehand {
 

@@ -35,7 +35,6 @@
 #include "live/tick_ring.h"
 #include "objects/vessel.h"
 #include "people/participant.h"
-#include "recordings/recorded_scene.h"
 #include "recordings/recorder.h"
 #include "recordings/recording.h"
 #include "scene/reader.h"

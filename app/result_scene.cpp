@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
-#include "system/file_kind_at.h"
+#include "system/files.h"
 
 namespace wholehand {
 bool is_result(const std::string& path) { return file_kind_at(path) == FileKind::result; }

@@ -2,6 +2,11 @@
 // How the 24 joints are numbered: the thumb's four from its base to its tip, then five of each other finger.
 #pragma once
 
+#include <array>
+#include <string>
+
+#include "core/scene.h"
+
 namespace wholehand {
 
 // The joints of a finger are finger_start(finger) + 0 .. finger_joints(finger) - 1.
@@ -13,5 +18,15 @@ constexpr int phalanx_digit(int phalanx) { return (phalanx + 1) / 3; }
 constexpr int phalanx_start(int phalanx) { return phalanx + 1 + 2 * phalanx_digit(phalanx); }
 // The finger that a joint belongs to.
 constexpr int finger_of(int joint) { return (joint + 1) / 5; }
+
+struct JointNames {
+  const char* paper;   // "thumb CMC", "index PIP", "little tip": for people, and with joint_key for files
+  const char* webxr;   // "index-finger-phalanx-intermediate": by it hand rigs in glTF are matched
+  const char* openxr;  // the enumerant "XR_HAND_JOINT_INDEX_INTERMEDIATE_EXT": for engines
+};
+extern const std::array<JointNames, JOINT_COUNT> JOINT_NAMES;
+
+// The paper's name as one word: "index_pip".
+std::string joint_key(int joint);
 
 }  // namespace wholehand

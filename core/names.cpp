@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/joint_names.h"
+#include "core/joints.h"
 #include "core/result.h"
 #include "core/scene.h"
 

@@ -10,7 +10,9 @@
 #include "core/nearest.h"
 #include "core/planes.h"
 #include "core/tolerances.h"
+#include "evidence/binomial.h"
 #include "evidence/load_floors.h"
+#include "shaders/layout.h"
 #include "shaders/status.h"
 
 namespace wholehand {
@@ -662,5 +664,18 @@ bool Comparer::holds() const {
   const bool inside = std::all_of(rows_.begin(), rows_.end(), [](const Comparison& r) { return r.outside == 0; });
   return inside && excluded_ <= allowed() && (grazing_ + excluded_ < grips_ || grips_ == 0);
 }
+
+Allowance allowance(Precision precision) {
+  if (precision == Precision::single) return {std::numeric_limits<float>::epsilon(), STOP_TOLERANCE_F32, LEVEL_TOLERANCE_F32, true};
+  return {std::numeric_limits<double>::epsilon(), STOP_TOLERANCE_F64, LEVEL_TOLERANCE_F64, true};
+}
+
+Allowance float_against_double() {
+  Allowance allowed = allowance(Precision::single);
+  allowed.same_stop = false;
+  return allowed;
+}
+
+std::uint64_t allowed_flips(std::uint64_t grips) { return largest_plausible_count(grips, FLIP_SHARE, FLIP_SIGNIFICANCE); }
 
 }  // namespace wholehand

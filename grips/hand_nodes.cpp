@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/closure.h"
-#include "core/joint_names.h"
 #include "core/joints.h"
 #include "core/load.h"
 #include "core/mirror.h"

@@ -48,6 +48,9 @@ void add_quality(GripReport& report, const Scene& scene, std::size_t vessel);
 // out are null. Doubles read back as they were.
 std::string grip_json(const GripReport& report);
 
+// The share of deviations that hold in whole percents, rounded down: "100" says that all do.
+std::string held_percent(double share);
+
 // Whether a grip with this worst effort and this least friction that holds it runs out of friction before it runs out of strength: the
 // margin of friction is the smaller one, or no strength is enough.
 bool friction_fails_first(const Scene& scene, double effort, double friction_needed);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/joint_names.h"
 #include "core/joints.h"
 #include "core/text.h"
 #include "grips/report.h"
@@ -264,6 +263,8 @@ std::string hold_verdict(const Scene& scene, const GripReport& report) {
 
 }  // namespace
 
+std::string held_percent(double share) { return fixed_text(std::floor(100 * share), 0); }
+
 bool friction_fails_first(const Scene& scene, double effort, double friction_needed) {
   return std::isinf(effort) || (std::isfinite(friction_needed) && scene.force.friction / friction_needed < held_margin(effort));
 }
@@ -287,7 +288,7 @@ std::string grip_verdict(const Scene& scene, const GripReport& report) {
                                                scene.strength ? "[tilts]" : "efforts");
   if (report.held_share) {
     text += fmt::format("It {} in {} % of {} deviations from its place.\n", report.hold ? "holds" : "is plausible",
-                        fixed_text(std::floor(100 * *report.held_share), 0), scene.robust->count);
+                        held_percent(*report.held_share), scene.robust->count);
   } else if (!scene.robust) {
     text += "Off its place the grip is not judged: the scene has no [robust].\n";
   }

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/joint_names.h"
+#include "core/joints.h"
 #include "core/planes.h"
 #include "core/vectors.h"
 #include "library/status.h"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene.h"
 #include "live/tick.h"
 #include "recordings/checksums.h"
 #include "recordings/classic_netcdf.h"
@@ -136,5 +137,12 @@ struct Recording {
 // Reads a recording. Values come back to the bit; a vessel that the recording does not have is as in a new Tick. Throws Error
 // (usage), one line with the file: it cannot be read, is no recording, lacks something, or holds what cannot be.
 Recording read_recording(const std::string& path);
+
+// Parses the recorded text, and gives the scene the hand of the virtual person who made the recording, if one did. Throws Error
+// (usage) as parse_scene does. Meshes are not loaded.
+Scene scene_of_recording(const RecordingInfo& info);
+
+// Gives a scene the hand of a virtual person, by the scene's own [people].
+void take_hand_of(Scene& scene, std::uint64_t seed, std::uint64_t person);
 
 }  // namespace wholehand

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "charts/field.h"
-#include "core/joint_names.h"
+#include "core/joints.h"
 #include "core/text.h"
 #include "shaders/status.h"
 #include "system/readable.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/joint_names.h"
+#include "core/joints.h"
 #include "core/text.h"
 #include "report/html.h"
 #include "studies/words.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "studies/contact_tally.h"
-#include "core/joint_names.h"
+#include "core/joints.h"
 
 #include <fmt/format.h>
 

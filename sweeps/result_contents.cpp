@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/joint_names.h"
+#include "core/joints.h"
 #include "core/text.h"
 #include "objects/vessel.h"
 #include "shaders/layout.h"

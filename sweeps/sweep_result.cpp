@@ -19,7 +19,6 @@
 #include "sweeps/refine.h"
 #include "sweeps/result_contents.h"
 #include "sweeps/robust.h"
-#include "system/file_kind_at.h"
 #include "system/files.h"
 #include "system/readable.h"
 #include "system/version.h"

@@ -2,14 +2,31 @@
 // One moment as the viewer sees it, and as the JSON that the page takes; docs/view.md names the fields.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "advice/advice.h"
+#include "core/quaternion.h"
 #include "live/hand_view.h"
-#include "viewer/ghost.h"
+#include "live/vessel_tracker.h"
 
 namespace wholehand {
+
+// A place and a turn, world frame of the scene.
+struct GhostNode {
+  Triple place{};
+  Quaternion turn{0, 0, 0, 1};
+};
+
+struct GhostHand {
+  GhostNode wrist;
+  std::array<GhostNode, JOINT_COUNT> joints;
+};
+
+// Of the best grip, on its vessel where that is. Nothing where no grip is better than the present one.
+std::optional<GhostHand> ghost_of(const Scene& scene, const Advice& advice, const VesselPoses& poses);
 
 // What is advised, world frame.
 struct FrameAdvice {

@@ -7,7 +7,7 @@
 
 #include "advice/words.h"
 #include "core/error.h"
-#include "core/joint_names.h"
+#include "core/joints.h"
 #include "live/amounts.h"
 #include "scene/text.h"
 

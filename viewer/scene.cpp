@@ -9,7 +9,6 @@
 
 #include "core/closure.h"
 #include "core/contact.h"
-#include "core/joint_names.h"
 #include "core/joints.h"
 #include "core/load.h"
 #include "core/mesh_body.h"

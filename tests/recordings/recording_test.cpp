@@ -14,7 +14,6 @@
 #include "core/hand_size.h"
 #include "people/person.h"
 #include "recordings/fields.h"
-#include "recordings/recorded_scene.h"
 #include "scene/reader.h"
 #include "tests/support/files.h"
 #include "tests/support/recorded_ticks.h"

@@ -13,7 +13,6 @@
 #include "tests/support/advised_session.h"
 #include "tests/support/osc_listener.h"
 #include "viewer/frame.h"
-#include "viewer/ghost.h"
 
 namespace wholehand {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene of a view as the page gets it: what does not change while the frames come.
 // sanitizers: address
-#include "core/joint_names.h"
 #include "core/joints.h"
 #include "viewer/scene.h"
 

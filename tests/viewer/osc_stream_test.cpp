@@ -2,7 +2,6 @@
 // A session as OSC: every frame against the ticks it was made of.
 // sanitizers: address
 #include "viewer/osc_stream.h"
-#include "core/joint_names.h"
 #include "core/joints.h"
 
 #include <gtest/gtest.h>

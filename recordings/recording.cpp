@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "recordings/recorded_scene.h"
+#include "recordings/recording.h"
 
 #include "people/person.h"
 #include "scene/reader.h"
