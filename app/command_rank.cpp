@@ -22,6 +22,7 @@
 #include "sweeps/companions.h"
 #include "sweeps/rank.h"
 #include "sweeps/rules.h"
+#include "sweeps/unheld.h"
 #include "system/files.h"
 #include "system/output.h"
 #include "system/readable.h"
@@ -56,6 +57,7 @@ struct RankedResult {
   Scene scene;
   Plan plan;
   Ranking ranking{};
+  std::vector<std::string> unheld{};  // as of unheld_lines
 };
 using RankedResults = std::vector<std::unique_ptr<RankedResult>>;
 
@@ -116,6 +118,29 @@ OutputNames glb_names(const std::string& list) {
   return names;
 }
 
+// For each list of which no grip holds, what fails and what would hold. Empty where some hold, and where the scene's meshes or the
+// result's efforts are not there.
+std::vector<std::string> unheld_lines(const RankedResult& one) {
+  const std::size_t lists = one.ranking.lists.size();
+  std::vector<std::string> lines(lists);
+  const auto is_unheld = [&](std::size_t k) {
+    return one.ranking.not_held[k] > 0 && one.ranking.not_held[k] == one.ranking.plausible[k];
+  };
+  bool is_any = false;
+  for (std::size_t k = 0; k < lists; ++k) is_any = is_any || is_unheld(k);
+  for (const char* name : {"worst_effort", "score"}) is_any = is_any && one.result.find(name);
+  if (!is_any || !one.trouble.empty()) return lines;
+  const std::shared_ptr<const Evaluator> core = make_core_evaluator(one.scene);
+  const Ranking nearest = rank_grips(one.result, one.scene, one.plan, {"", {}, 1, 0, 0, true}, [&] { return core; });
+  for (std::size_t k = 0; k < lists; ++k) {
+    if (!is_unheld(k) || nearest.lists[k].empty()) continue;
+    const BestGrip& grip = nearest.lists[k].front();
+    lines[k] = unheld_line(*core, one.scene, one.plan, k / one.plan.hand_scales(),
+                           {grip.efforts.worst, grip.efforts.friction_needed, grip.candidate.index});
+  }
+  return lines;
+}
+
 std::vector<JointList> joint_lists(const RankedResults& results, const RankRequest& request) {
   std::vector<JointList> lists;
   for (std::size_t r = 0; r < results.size(); ++r) {
@@ -131,6 +156,14 @@ std::vector<JointList> joint_lists(const RankedResults& results, const RankReque
   if (results.size() > 1)
     for (JointList& list : lists) list.grips = merged(std::move(list.grips), request.by, request.best);
   return lists;
+}
+
+// What there is to say of a list of which no grip holds.
+std::string unheld_text(const RankedResults& results, const JointList& list) {
+  const auto& [r, place] = list.parts.front();
+  const std::string& line = results[r]->unheld[place];
+  return list.parts.size() > 1 || line.empty() ? "no grip holds; --least-bad lists those that are nearest to it"
+                                               : line + "; --least-bad lists such grips";
 }
 
 // How many grips of a list there are, by whether they match and hold.
@@ -172,10 +205,9 @@ std::string ranking_text(const RankedResults& results, const std::vector<JointLi
       if (results.size() > 1) view.results.push_back(one_line(results[grip.ranking]->result.path()));
     }
     const RankedResult& first = *results[list.parts.front().first];
-    const std::string verdict = held == 0 && not_held > 0 && !arguments.least_bad
-                                    ? "no grip holds; --least-bad lists those that are nearest to it"
-                                : held > 0 && grips.empty() ? "no grip matches"
-                                                            : verdict_text(first.scene, grips);
+    const std::string verdict = held == 0 && not_held > 0 && !arguments.least_bad ? unheld_text(results, list)
+                                : held > 0 && grips.empty()                       ? "no grip matches"
+                                                                                  : verdict_text(first.scene, grips);
     text += fmt::format("{}{}: {}\n{}", text.empty() ? "" : "\n", list.name, verdict, counts);
     text +=
         list_lines(first.scene, first.plan, list.parts.front().second / first.plan.hand_scales(), grips, arguments.output, view);
@@ -236,6 +268,7 @@ ExitCode rank(const RankArguments& arguments) {
     if (glb > 0) core = open_core();
     one->ranking = rank_grips(one->result, one->scene, one->plan, request, open_core);
     if (!one->ranking.note.empty()) say_note(one->ranking.note);
+    if (!arguments.least_bad) one->unheld = unheld_lines(*one);
   }
   const std::vector<JointList> lists = joint_lists(results, request);
   print(rule_line(results, arguments, request.by) + ranking_text(results, lists, arguments, view));

@@ -257,14 +257,18 @@ CompareTable sums_table(const VesselSums& a, const VesselSums& b) {
   return table;
 }
 
-// A's first grips and what became of them.
-CompareTable first_grips(const Side& a, std::size_t vessel_a, const VesselSums& sums_a, const Side& b, std::size_t vessel_b,
-                         const VesselSums& sums_b) {
-  CompareTable table{"The first grips of A, and where they are now",
-                     {"grip", "rank in A", "in B", "score A", "score B", "effort A", "effort B"},
-                     {}};
+// The first grips of a side, A, and what they are in the other.
+CompareTable first_grips(const char* name_a, const Side& a, std::size_t vessel_a, const VesselSums& sums_a, const char* name_b,
+                         const Side& b, std::size_t vessel_b, const VesselSums& sums_b) {
+  CompareTable table{fmt::format("The first grips of {}, and what they are in {}", name_a, name_b), {"grip"}, {}};
+  const auto add = [&](const char* text, const char* name) { table.columns.push_back(fmt::format("{}{}", text, name)); };
+  add("rank in ", name_a);
+  add("in ", name_b);
+  for (const char* text : {"score ", "effort "})
+    for (const char* name : {name_a, name_b}) add(text, name);
   const bool is_robust = a.scene.robust && b.scene.robust;  // both lists are ranked by these scores
-  if (is_robust) table.columns.insert(table.columns.end(), {"robust A", "robust B"});
+  if (is_robust)
+    for (const char* name : {name_a, name_b}) add("robust ", name);
   for (std::size_t k = 0; k < std::min(FIRST_GRIPS, sums_a.listed.size()); ++k) {
     const ListedGrip& grip = sums_a.listed[k];
     const ListedGrip* now = find_listed(sums_b, grip.grip);
@@ -303,7 +307,9 @@ bool add_vessel(const Side& a, std::size_t vessel_a, const Side& b, std::size_t 
                                           : fmt::format("{} of A's {} {} in B's list.", readable_number(common),
                                                         counted(sums_a.listed.size(), "grip"), common == 1 ? "is" : "are"));
   }
-  if (!sums_a.listed.empty()) part.tables.push_back(first_grips(a, vessel_a, sums_a, b, vessel_b, sums_b));
+  if (!sums_a.listed.empty()) part.tables.push_back(first_grips("A", a, vessel_a, sums_a, "B", b, vessel_b, sums_b));
+  if (!sums_b.listed.empty() && !is_same_list)
+    part.tables.push_back(first_grips("B", b, vessel_b, sums_b, "A", a, vessel_a, sums_a));
   const auto is_same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
   return !is_same_list || !std::equal(sums_a.sums.begin(), sums_a.sums.end(), sums_b.sums.begin(), is_same);
 }

@@ -74,7 +74,7 @@ std::string term_number(const GripReport& report, std::size_t term) {
     case HOLD_TERM:
       return percent_text(report.hold->worst);
     default:
-      return percent_text(report.held_share.value_or(NO_NUMBER));
+      return held_percent(report.held_share.value_or(NO_NUMBER)) + "\u00a0%";
   }
 }
 

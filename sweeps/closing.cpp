@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/printable.h"
+#include "grips/report.h"
 #include "sweeps/edge.h"
 #include "sweeps/grip_lists.h"
 #include "system/readable.h"
@@ -89,7 +90,7 @@ std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best) 
   if (!(effort <= 1)) return fmt::format("no grip holds; grip {} takes {}", first.rank, strength);
   return fmt::format("grip {} holds with {}{}", first.rank, strength,
                      !std::isnan(share) ? fmt::format("{} in {}{} % of its deviations", share < SURE_SHARE ? ", but" : " and",
-                                                      share < SURE_SHARE ? "only " : "", fixed_text(std::floor(100 * share), 0))
+                                                      share < SURE_SHARE ? "only " : "", held_percent(share))
                      : scene.robust     ? ""
                                         : "; not judged off its place");
 }

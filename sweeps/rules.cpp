@@ -59,15 +59,17 @@ std::string force_text(const Scene& scene) {
 }
 
 auto states_of(const Scene& scene) {
-  return std::tuple(scene.tilts, scene.until_poured, scene.liquid ? scene.liquid->density : 0,
-                    scene.liquid ? scene.liquid->fills : std::vector<double>(),
+  return std::tuple(scene.tilts, scene.until_poured, scene.liquid ? scene.liquid->pour : Pour::away,
+                    scene.liquid ? scene.liquid->density : 0, scene.liquid ? scene.liquid->fills : std::vector<double>(),
                     scene.liquid ? scene.liquid->volumes : std::vector<double>());
 }
 
 std::string states_text(const Scene& scene) {
   if (scene.tilts.empty()) return "none";
-  return fmt::format("{} up to {} deg, {}{}", counted(scene.tilts.size(), "tilt"), plain_text(degrees(scene.tilts.back())),
-                     scene.liquid ? counted(scene_fills(scene), "fill") : "no liquid", scene.until_poured ? ", until poured" : "");
+  return fmt::format("{} up to {} deg, {}{}{}", counted(scene.tilts.size(), "tilt"), plain_text(degrees(scene.tilts.back())),
+                     scene.liquid ? counted(scene_fills(scene), "fill") : "no liquid",
+                     scene.liquid && scene.liquid->pour == Pour::towards ? ", poured towards the holder" : "",
+                     scene.until_poured ? ", until poured" : "");
 }
 
 std::string robust_text(const Scene& scene) {

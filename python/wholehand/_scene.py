@@ -173,7 +173,7 @@ def new(
     fill_ml: float | None = None,
     **numbers: float,
 ) -> Scene:
-    """A complete scene of one vessel: table, liquid, strength, grips, tilts, deviations. Its ``text`` is commented TOML to edit.
+    """A complete scene of one vessel: table, arm, liquid, strength, grips, tilts, deviations. Its ``text`` is commented TOML to edit.
 
     Parameters
     ----------

@@ -242,6 +242,8 @@ TEST(RankSeveral, OtherRulesAreRefusedInALineThatNamesThem) {
   refused(with("[arm]"), "", "arm 'shoulder at ");
   refused(with("[force]\nfriction = 0.7"), "", "force 'friction 0.7, ");
   refused(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills = [0, 0.9]"), "", "states '4 tilts up to 135 deg, 2 fills', but ");
+  refused(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills = [0, 0.6]\npour = \"towards\""), "",
+          "states '4 tilts up to 135 deg, 2 fills, poured towards the holder', but ");
   refused(with("[hand]\nbetween = 1"), "",
           "hand 'right, 187.2 x 83.2 mm, scale 1, other numbers than by default', but 'right, 187.2 x 83.2 mm, scale 1' in ");
   refused(with("[score]\nhold = 0.5"), "", "weights '");
