@@ -40,6 +40,7 @@ TEST(ReportGrips, AreTheFilesWithTheCoresNumbers) {
   const auto listed = swept.result->best(1);
   for (std::size_t rank = 0; rank < 5; ++rank) {
     const BestGrip& grip = best.grips[rank];
+    EXPECT_EQ(grip.rank, rank + 1);
     EXPECT_EQ(grip.score, listed[rank].score);
     EXPECT_EQ(grip.candidate.index, listed[rank].index);
     GripResult result;
