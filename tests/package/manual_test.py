@@ -55,7 +55,7 @@ class Manual(unittest.TestCase):
     def test_pages_end_with_exit_codes_and_other_pages(self):
         for words in all_commands():
             page = man(page_of(words)).stdout
-            codes = r"EXIT STATUS\n +0 +done\n\n +1 +the answer is no \(check, grip\)\n\n +2 +wrong usage or input\n"
+            codes = r"EXIT STATUS\n +0 +done\n\n +1 +the answer is no \(check; grip: not feasible\)\n\n +2 +wrong usage or input\n"
             self.assertRegex(page, codes, words)
             named = re.findall(r"(wholehand[a-z-]*)\(1\)", page.split("SEE ALSO")[1].replace("‐", "-").rsplit("\n", 2)[0])
             self.assertGreaterEqual(len(named), 1, words)
