@@ -37,7 +37,8 @@ int main(int argc, char** argv) {
   program.version_note = "\n`wholehand devices` lists the devices that compute, and the grippers";
   program.footer =
       "In a checkout of the sources, ./wholehand also tests (test), measures (bench) and packages (package) the program.\n"
-      "Exit codes: 0 done, 1 the answer is no (check; grip: not feasible), 2 wrong usage or input, 3 device or system failure, 130 interrupted.";
+      "Exit codes: 0 done, 1 the answer is no (check; grip: not feasible), 2 wrong usage or input, 3 device or system failure, 130 "
+      "interrupted.";
   program.add_commands = add_all;
   return wholehand::run_program(argc, argv, program);
 }
