@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "device/safe_line.h"
-#include "system/block_signals.h"
+#include "system/failure_signals.h"
 
 namespace wholehand {
 namespace {

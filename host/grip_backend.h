@@ -9,7 +9,7 @@
 #include "core/backend.h"
 #include "core/evaluator.h"
 #include "host/device.h"
-#include "host/grip_program.h"
+#include "host/grip_options.h"
 
 namespace wholehand::host {
 

@@ -2,33 +2,15 @@
 // A scene on one device: buffers that all grips share, the vessels' pipelines, and the liquid's tables; for host/ alone.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
-#include "core/backend.h"
-#include "core/evaluator.h"
-#include "host/device.h"
+#include "host/grip_options.h"
 #include "host/kernel.h"
 #include "host/scene_arrays.h"
-#include "host/shaders.h"
-#include "host/stream_request.h"
 
 namespace wholehand::host {
-
-struct GripBackendOptions {
-  Precision precision = Precision::single;
-  OutlineSource outline = OUTLINE_SPECIALIZED;  // outlines of more than MAX_OUTLINE elements always come from a buffer
-  EvaluatorOptions evaluator;                   // as the core's: lattice instead of outline, tolerances, ..
-  DeviceOptions device;
-  StreamOptions stream;
-  // Grips of an invocation of the kernel of forces; 0: what suits the device. The bits are the same.
-  std::uint32_t forces_together = 0;
-  std::span<const EmbeddedShader>
-      shaders{};  // in place of those of the same name that the program has, to compare; they outlive the backend
-};
 
 // What a vessel needs on the device.
 struct VesselOnDevice {

@@ -15,7 +15,7 @@
 #include <string>
 #include <typeinfo>
 
-#include "system/block_signals.h"
+#include "system/failure_signals.h"
 #include "system/memory_limit.h"
 
 namespace wholehand {

@@ -7,16 +7,9 @@
 
 #include <csignal>
 
+#include "system/failure_signals.h"
+
 namespace wholehand {
-
-struct FailureSignal {
-  int number;
-  const char* name;
-};
-
-inline constexpr FailureSignal FAILURE_SIGNALS[] = {{SIGABRT, "SIGABRT"}, {SIGSEGV, "SIGSEGV"}, {SIGBUS, "SIGBUS"},
-                                                    {SIGFPE, "SIGFPE"},   {SIGILL, "SIGILL"},   {SIGTRAP, "SIGTRAP"},
-                                                    {SIGSYS, "SIGSYS"}};
 
 // Blocks all signals but FAILURE_SIGNALS in the calling thread, and so in those that it starts, until it goes; also where starting one throws.
 class BlockSignals {

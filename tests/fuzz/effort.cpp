@@ -15,7 +15,7 @@
 #include "core/effort.h"
 #include "tests/fuzz/choices.h"
 #include "tests/fuzz/must.h"
-#include "tests/support/expect_forces.h"
+#include "tests/support/force_sums.h"
 
 namespace wholehand {
 namespace {

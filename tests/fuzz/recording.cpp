@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "recordings/recording.h"
 #include "recordings/session_report.h"
-#include "tests/support/recorded_ticks.h"
+#include "tests/support/renewed_recording.h"
 
 namespace {
 

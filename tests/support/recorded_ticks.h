@@ -7,37 +7,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <random>
-#include <string>
 
-#include "core/error.h"
-#include "recordings/checksums.h"
-#include "recordings/classic_netcdf.h"
 #include "recordings/fields.h"
 #include "recordings/recording.h"
 #include "tests/support/files.h"
+#include "tests/support/renewed_recording.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {
-
-// Lets the reader come as far as what was changed. What is no recording any more stays.
-inline void renew_checksums(std::string& bytes) {
-  try {
-    classic::Header header = classic::parse_header(bytes, bytes.size());
-    std::string fixed;
-    for (const classic::Variable& variable : header.variables)
-      if (!variable.is_record) fixed += bytes.substr(variable.begin, variable.size);
-    set_checksum(header, fixed);
-    const std::string start = classic::encode_header(header);
-    RecordChecksums checksums(header);
-    bytes.replace(0, start.size(), start);
-    for (std::uint64_t k = 0; header.record_begin + (k + 1) * header.record_size <= bytes.size(); ++k)
-      checksums.store(bytes.data() + header.record_begin + k * header.record_size);
-  } catch (const Error&) {
-  }
-}
 
 inline RecordingInfo recorded_info(std::size_t vessels) {
   RecordingInfo info;
