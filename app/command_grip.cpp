@@ -36,6 +36,7 @@
 #include "sweeps/robust.h"
 #include "system/files.h"
 #include "system/output.h"
+#include "system/readable.h"
 #include "viewer/grips.h"
 #include "viewer/serve_view.h"
 
@@ -192,14 +193,14 @@ ChosenGrip ranked_grip(const GripArguments& arguments) {
     if (arguments.refined) chosen.input = refined_grip(result, plan, chosen.vessel, place, rank);
     return chosen;
   }
-  throw usage_error(
-      fmt::format("--rank {}: {} lists {} grip{} of {}", rank, is_own ? result.path() : arguments.list, lists[place].size(),
-                  lists[place].size() == 1 ? "" : "s", list_name(chosen.scene, plan, place)) +
-      (is_own && lists[place].empty() && has_effort(chosen.scene)
-           ? fmt::format("; `wholehand rank {} --least-bad -o LIST.csv`, where none holds, and --list LIST.csv show the "
-                         "nearest to holding",
-                         one_line(result.path()))
-           : ""));
+  std::string remedy;
+  if (is_own && lists[place].empty() && has_effort(chosen.scene)) {
+    remedy = fmt::format(
+        "; `wholehand rank {} --least-bad -o LIST.csv`, where none holds, and --list LIST.csv show the nearest to holding",
+        one_line(result.path()));
+  }
+  throw usage_error(fmt::format("--rank {}: {} lists {} of {}{}", rank, is_own ? result.path() : arguments.list,
+                                counted(lists[place].size(), "grip"), list_name(chosen.scene, plan, place), remedy));
 }
 
 ExitCode grip(const GripArguments& arguments) {

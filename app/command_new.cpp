@@ -4,8 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -70,9 +68,7 @@ ExitCode write_new(const NewArguments& arguments) {
   write_whole_file(file.string(), text, false);
   const double capacity = wanted.mesh.empty() ? capacity_of(parse_scene(text, file.string()).vessels[0]) : 0;
   print(fmt::format("Wrote {0}{1}. Next: wholehand sweep {0}\n", file.string(),
-                    capacity > 0 ? fmt::format(", a vessel that holds {} mL",
-                                               readable_number(static_cast<std::uint64_t>(std::lround(1e6 * capacity))))
-                                 : ""));
+                    capacity > 0 ? fmt::format(", a vessel that holds {} mL", fixed_text(1e6 * capacity, 0)) : ""));
   return ExitCode::done;
 }
 

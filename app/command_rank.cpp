@@ -22,7 +22,6 @@
 #include "sweeps/companions.h"
 #include "sweeps/rank.h"
 #include "sweeps/rules.h"
-#include "sweeps/unheld.h"
 #include "system/files.h"
 #include "system/output.h"
 #include "system/readable.h"
@@ -57,7 +56,7 @@ struct RankedResult {
   Scene scene;
   Plan plan;
   Ranking ranking{};
-  std::vector<std::string> unheld{};  // as of unheld_lines
+  std::vector<std::string> unheld{};  // a line for each list of which no grip holds
 };
 using RankedResults = std::vector<std::unique_ptr<RankedResult>>;
 
@@ -118,27 +117,16 @@ OutputNames glb_names(const std::string& list) {
   return names;
 }
 
-// For each list of which no grip holds, what fails and what would hold. Empty where some hold, and where the scene's meshes or the
-// result's efforts are not there.
-std::vector<std::string> unheld_lines(const RankedResult& one) {
+// As of unheld_lines. All are empty where the scene's meshes or the result's efforts are not there.
+std::vector<std::string> unheld_lines_of(const RankedResult& one) {
   const std::size_t lists = one.ranking.lists.size();
-  std::vector<std::string> lines(lists);
-  const auto is_unheld = [&](std::size_t k) {
-    return one.ranking.not_held[k] > 0 && one.ranking.not_held[k] == one.ranking.plausible[k];
-  };
   bool is_any = false;
-  for (std::size_t k = 0; k < lists; ++k) is_any = is_any || is_unheld(k);
-  for (const char* name : {"worst_effort", "score"}) is_any = is_any && one.result.find(name);
-  if (!is_any || !one.trouble.empty()) return lines;
+  for (std::size_t list = 0; list < lists; ++list) is_any = is_any || none_holds(one.ranking, list);
+  if (!is_any || !one.trouble.empty() || !one.result.find("worst_effort") || !one.result.find("score"))
+    return std::vector<std::string>(lists);
   const std::shared_ptr<const Evaluator> core = make_core_evaluator(one.scene);
-  const Ranking nearest = rank_grips(one.result, one.scene, one.plan, {"", {}, 1, 0, 0, true}, [&] { return core; });
-  for (std::size_t k = 0; k < lists; ++k) {
-    if (!is_unheld(k) || nearest.lists[k].empty()) continue;
-    const BestGrip& grip = nearest.lists[k].front();
-    lines[k] = unheld_line(*core, one.scene, one.plan, k / one.plan.hand_scales(),
-                           {grip.efforts.worst, grip.efforts.friction_needed, grip.candidate.index});
-  }
-  return lines;
+  const Ranking least_bad = rank_grips(one.result, one.scene, one.plan, {"", {}, 1, 0, 0, true}, [&] { return core; });
+  return unheld_lines(*core, one.scene, one.plan, least_bad);
 }
 
 std::vector<JointList> joint_lists(const RankedResults& results, const RankRequest& request) {
@@ -268,7 +256,7 @@ ExitCode rank(const RankArguments& arguments) {
     if (glb > 0) core = open_core();
     one->ranking = rank_grips(one->result, one->scene, one->plan, request, open_core);
     if (!one->ranking.note.empty()) say_note(one->ranking.note);
-    if (!arguments.least_bad) one->unheld = unheld_lines(*one);
+    if (!arguments.least_bad) one->unheld = unheld_lines_of(*one);
   }
   const std::vector<JointList> lists = joint_lists(results, request);
   print(rule_line(results, arguments, request.by) + ranking_text(results, lists, arguments, view));

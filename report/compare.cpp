@@ -31,8 +31,8 @@ constexpr double SAME_PLACE = 1e-9;  // m, rad or 1
 
 // A result in use with its scene. The lists are of each vessel and hand scale.
 struct Side {
-  Side(SweepResult& opened, const Scene& given)
-      : result(opened), scene(with_heights(opened, given)), plan(scene, keeps_vectors(opened.variables())) {
+  Side(const char* letter, SweepResult& opened, const Scene& given)
+      : name(letter), result(opened), scene(with_heights(opened, given)), plan(scene, keeps_vectors(opened.variables())) {
     result.use(scene, plan);
     lists = lists_of_sweep(result, scene, plan);
   }
@@ -45,6 +45,7 @@ struct Side {
     return variable ? result.pick(*variable, vessel, 0, {grip})[0] : std::nan("");
   }
 
+  const char* name;  // "A" or "B"
   SweepResult& result;
   Scene scene;
   Plan plan;
@@ -257,18 +258,19 @@ CompareTable sums_table(const VesselSums& a, const VesselSums& b) {
   return table;
 }
 
-// The first grips of a side, A, and what they are in the other.
-CompareTable first_grips(const char* name_a, const Side& a, std::size_t vessel_a, const VesselSums& sums_a, const char* name_b,
-                         const Side& b, std::size_t vessel_b, const VesselSums& sums_b) {
-  CompareTable table{fmt::format("The first grips of {}, and what they are in {}", name_a, name_b), {"grip"}, {}};
-  const auto add = [&](const char* text, const char* name) { table.columns.push_back(fmt::format("{}{}", text, name)); };
-  add("rank in ", name_a);
-  add("in ", name_b);
-  for (const char* text : {"score ", "effort "})
-    for (const char* name : {name_a, name_b}) add(text, name);
+// The first grips of side a, and what they are in b.
+CompareTable first_grips(const Side& a, std::size_t vessel_a, const VesselSums& sums_a, const Side& b, std::size_t vessel_b,
+                         const VesselSums& sums_b) {
+  CompareTable table{fmt::format("The first grips of {}, and what they are in {}", a.name, b.name),
+                     {"grip", fmt::format("rank in {}", a.name), fmt::format("in {}", b.name)},
+                     {}};
+  const auto add_pair = [&](const char* what) {
+    for (const Side* side : {&a, &b}) table.columns.push_back(fmt::format("{} {}", what, side->name));
+  };
+  add_pair("score");
+  add_pair("effort");
   const bool is_robust = a.scene.robust && b.scene.robust;  // both lists are ranked by these scores
-  if (is_robust)
-    for (const char* name : {name_a, name_b}) add("robust ", name);
+  if (is_robust) add_pair("robust");
   for (std::size_t k = 0; k < std::min(FIRST_GRIPS, sums_a.listed.size()); ++k) {
     const ListedGrip& grip = sums_a.listed[k];
     const ListedGrip* now = find_listed(sums_b, grip.grip);
@@ -307,9 +309,8 @@ bool add_vessel(const Side& a, std::size_t vessel_a, const Side& b, std::size_t 
                                           : fmt::format("{} of A's {} {} in B's list.", readable_number(common),
                                                         counted(sums_a.listed.size(), "grip"), common == 1 ? "is" : "are"));
   }
-  if (!sums_a.listed.empty()) part.tables.push_back(first_grips("A", a, vessel_a, sums_a, "B", b, vessel_b, sums_b));
-  if (!sums_b.listed.empty() && !is_same_list)
-    part.tables.push_back(first_grips("B", b, vessel_b, sums_b, "A", a, vessel_a, sums_a));
+  if (!sums_a.listed.empty()) part.tables.push_back(first_grips(a, vessel_a, sums_a, b, vessel_b, sums_b));
+  if (!sums_b.listed.empty() && !is_same_list) part.tables.push_back(first_grips(b, vessel_b, sums_b, a, vessel_a, sums_a));
   const auto is_same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
   return !is_same_list || !std::equal(sums_a.sums.begin(), sums_a.sums.end(), sums_b.sums.begin(), is_same);
 }
@@ -334,7 +335,7 @@ std::string table_text(const CompareTable& table, bool is_of_words) {
 }  // namespace
 
 std::vector<ComparePart> compare_results(SweepResult& a, const Scene& scene_a, SweepResult& b, const Scene& scene_b) {
-  const Side side_a(a, scene_a), side_b(b, scene_b);
+  const Side side_a("A", a, scene_a), side_b("B", b, scene_b);
   std::vector<ComparePart> parts(1);
   parts[0].title = fmt::format("A: {}, B: {}", a.path().substr(a.path().rfind('/') + 1), b.path().substr(b.path().rfind('/') + 1));
   bool has_changed = add_judging(side_a, side_b, parts[0]);

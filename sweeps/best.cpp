@@ -215,8 +215,8 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   if (scene.robust) {
     columns.push_back({"robust", [](const BestGrip& b) { return fixed_text(b.robust.low, 3); }, if_so(is_robust)});
     columns.push_back({"mean", [](const BestGrip& b) { return fixed_text(b.robust.mean, 3); }});
-    columns.push_back({"holds %", [](const BestGrip& b) { return std::isnan(b.robust.share) ? "" : held_percent(b.robust.share); },
-                       if_so(is_robust, Column::held_share)});
+    columns.push_back(
+        {"holds %", [](const BestGrip& b) { return held_percent(b.robust.share); }, if_so(is_robust, Column::held_share)});
   }
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
     const auto differs = [&](const BestGrip& b) { return cell(b) != cell(best.front()); };  // between several results

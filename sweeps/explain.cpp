@@ -339,8 +339,7 @@ class Explainer {
     const auto cost = [&](double grips) { return grips * static_cast<double>(count) * each * 1e-6; };
     const double all = cost(static_cast<double>(judged)), least = first * all + (1 - first) * cost(static_cast<double>(listed));
     say("  not left out: the robust scores by the core, {} us for each deviation. An eighth of {} deviations of {} candidates and "
-        "the rest "
-        "for the {} listed cost at least {:.3g} s of processor time a sweep; all would cost {:.3g} s\n",
+        "the rest for the {} listed cost at least {:.3g} s of processor time a sweep; all would cost {:.3g} s\n",
         us(each), readable_number(count), readable_number(judged), readable_number(listed), least, all);
   }
 

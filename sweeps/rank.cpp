@@ -23,6 +23,7 @@
 #include "shaders/layout.h"
 #include "sweeps/list_chooser.h"
 #include "sweeps/robust.h"
+#include "sweeps/unheld.h"
 
 namespace wholehand {
 namespace {
@@ -307,11 +308,6 @@ void set_robust(const SweepResult& result, const Plan& plan, std::size_t list, s
       }
 }
 
-// Whether no grip of the list holds.
-bool none_holds(const Ranking& ranking, std::size_t list) {
-  return ranking.not_held[list] > 0 && ranking.not_held[list] == ranking.plausible[list];
-}
-
 // What the lists are in the order of, of a block of grips: the larger, the better.
 class RankKeys {
  public:
@@ -423,6 +419,21 @@ std::vector<ListProgress> rank_vessel(const SweepResult& result, const Scene& sc
 }
 
 }  // namespace
+
+bool none_holds(const Ranking& ranking, std::size_t list) {
+  return ranking.not_held[list] > 0 && ranking.not_held[list] == ranking.plausible[list];
+}
+
+std::vector<std::string> unheld_lines(const Evaluator& core, const Scene& scene, const Plan& plan, const Ranking& least_bad) {
+  std::vector<std::string> lines(least_bad.lists.size());
+  for (std::size_t list = 0; list < lines.size(); ++list) {
+    if (!none_holds(least_bad, list) || least_bad.lists[list].empty()) continue;
+    const BestGrip& grip = least_bad.lists[list].front();
+    lines[list] = unheld_line(core, scene, plan, list / plan.hand_scales(),
+                              {grip.efforts.worst, grip.efforts.friction_needed, grip.candidate.index});
+  }
+  return lines;
+}
 
 std::array<double, 6> read_weights(const std::string& text, const Scene& scene) {
   std::array<double, 6> weights = effective_weights(scene);

@@ -63,6 +63,13 @@ struct Ranking {
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core);
 
+// Whether a list has plausible grips, none of which holds.
+bool none_holds(const Ranking& ranking, std::size_t list);
+
+// For each list of which no grip holds, the line about its nearest grip (sweeps/unheld.h); empty for the others. `least_bad` is a ranking
+// that was asked for such grips.
+std::vector<std::string> unheld_lines(const Evaluator& core, const Scene& scene, const Plan& plan, const Ranking& least_bad);
+
 // A grip of one of several rankings, and of which list there.
 struct MergedGrip {
   std::size_t ranking = 0, list = 0;

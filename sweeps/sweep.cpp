@@ -570,24 +570,14 @@ std::string Sweep::unheld(std::size_t v) const {
 // The same of each list where others of its vessel have grips: of several hand scales. The marks know the nearest grip of a vessel alone, so the
 // finished result is read.
 std::vector<std::string> Sweep::unheld_lists(const BestLists& best) const {
-  std::vector<std::string> lines(best.size());
-  const std::size_t scales = plan().hand_scales();
-  const auto is_unheld = [&](std::size_t list) {
-    const GripCounts& counts = mark_.vessels[list / scales].counts;
-    return best[list].empty() && counts.not_held > 0 && !counts.none_holds();
-  };
-  std::size_t empty = 0;
-  for (std::size_t list = 0; list < best.size(); ++list) empty += is_unheld(list) ? 1 : 0;
-  if (empty == 0 || is_quiet() || best_wanted_ == 0 || !keeps_least_bad() || has_shards()) return lines;
-  const std::shared_ptr<const Evaluator> core = parts_.open_evaluator();
-  const Ranking nearest = rank_finished({"", {}, 1, 0, 0, true});
+  bool is_any = false;
   for (std::size_t list = 0; list < best.size(); ++list) {
-    if (!is_unheld(list) || nearest.lists[list].empty()) continue;
-    const BestGrip& grip = nearest.lists[list].front();
-    lines[list] =
-        unheld_line(*core, scene_, plan(), list / scales, {grip.efforts.worst, grip.efforts.friction_needed, grip.candidate.index});
+    const GripCounts& counts = mark_.vessels[list / plan().hand_scales()].counts;
+    is_any = is_any || (best[list].empty() && counts.not_held > 0 && !counts.none_holds());
   }
-  return lines;
+  if (!is_any || is_quiet() || best_wanted_ == 0 || !keeps_least_bad() || has_shards())
+    return std::vector<std::string>(best.size());
+  return unheld_lines(*parts_.open_evaluator(), scene_, plan(), rank_finished({"", {}, 1, 0, 0, true}));
 }
 
 std::string Sweep::counts_text(std::size_t v) const {

@@ -75,12 +75,11 @@ std::string unheld_line(const Evaluator& core, const Scene& scene, const Plan& p
   const GripInput grip = plan.grip(vessel, nearest.grip);
   const Unheld found = what_would_hold(core, scene, vessel, grip);
   const bool is_resisted = std::isfinite(found.effort), has_friction = std::isfinite(found.friction_needed);
+  const char* fails = "the strength of the hand fails first";
+  if (friction_fails_first(scene, found.effort, found.friction_needed))
+    fails = has_friction ? "friction fails first" : "no friction up to 10 is enough for how the hand touches it";
   std::string line =
-      fmt::format("no grip holds it: {}. Nearest to holding is grip {}{}, ",
-                  !friction_fails_first(scene, found.effort, found.friction_needed) ? "the strength of the hand fails first"
-                  : has_friction                                                    ? "friction fails first"
-                                 : "no friction up to 10 is enough for how the hand touches it",
-                  nearest.grip, place_of(plan, grip));
+      fmt::format("no grip holds it: {}. Nearest to holding is grip {}{}, ", fails, nearest.grip, place_of(plan, grip));
   line += is_resisted ? fmt::format("whose worst effort is {}", fixed_text(found.effort, 3))
                       : "which no force holds in its worst state";
   std::vector<std::string> ways;
