@@ -28,7 +28,7 @@ double fill_of(const VesselData& vessel, double volume, double capacity) {
   return vessel.has_cavity() && capacity > 0 ? std::clamp(volume / capacity, 0.0, 1.0) : 0;
 }
 
-// Of the rated grips that are as good as the best of them the one to which the way is shortest.
+// Among the rated grips that are as good as the best of them, the one with the shortest way to it.
 const RatedGrip* nearest_of_best(const std::vector<RatedGrip>& rated, const GripInput& from) {
   double least = std::numeric_limits<double>::infinity();
   for (const RatedGrip& one : rated)

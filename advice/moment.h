@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a moment of a session to its advice.
+// From a moment of a session to its advice, and from that to what a simulated user can follow.
 #pragma once
 
 #include <atomic>

@@ -12,7 +12,7 @@
 
 namespace wholehand {
 
-// Of two tips (thumb, index) and a gripper's axes, in the vessel's frame and the world of the right hand. Nothing where the line
+// The grip of two tips (thumb, index) and a gripper's axes, in the vessel's frame and the world of the right hand. Absent where the line
 // of the tips runs along the vessel's axis.
 std::optional<GripInput> grip_of_tips(const std::array<core_f64::Vec3, 2>& tips, const core_f64::Mat3& axes);
 
@@ -23,8 +23,8 @@ struct Approach {
   GripInput grip;  // in the world of the scene; of the scene's own hand
 };
 
-// Of the vessel that is touched or held, else of the nearest one with both tips no further than NEAR_VESSEL from its surface.
-// Nothing where there is none, where the line of the tips passes further over or under it than grips reach, where a session is
+// The approach to the vessel that is touched or held, else to the nearest one with both tips no further than NEAR_VESSEL from its surface.
+// Absent where there is none, where the line of the tips passes further over or under it than grips reach, where a session is
 // over, or where a vessel returns to where it stood.
 std::optional<Approach> approach_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses);
 

@@ -27,7 +27,7 @@
 namespace wholehand {
 namespace {
 
-// Of all recordings together.
+// All recordings together.
 struct RecordedSessions {
   Scene scene;  // of the first
   SessionVessels vessels;

@@ -30,7 +30,7 @@ struct PlotArea {
   double y(double value) const { return bottom - share(value, y_low, y_high, y_is_logarithmic) * (bottom - top); }
 
  private:
-  // Of the way from `low` to `high`.
+  // A share of the way from `low` to `high`.
   static double share(double value, double low, double high, bool is_logarithmic) {
     return is_logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
   }

@@ -67,7 +67,7 @@ void put_boxes(MarkupWriter& svg, const PlotArea& area, const PlotLayer& layer) 
   if (!path.empty()) svg.empty("path", {{"class", "cell"}, {"fill", layer.color}, {"d", path}});
 }
 
-// Of points that lie level, those between the first and the last are left out.
+// Leaves out the points between the first and the last of those that lie level.
 std::string line_path(const PlotArea& area, const std::vector<std::array<double, 2>>& points) {
   std::string path;
   bool is_drawn = false;

@@ -14,7 +14,7 @@ namespace {
 constexpr double WIDER = 0.1e-3;  // m: by how much a cavity is wider above and beneath a narrow place
 constexpr double SAME = 1e-9;     // m: radii that differ by rounding
 
-// Of the cavity below a height.
+// The volume of the cavity below a height.
 double volume_below(const std::vector<PreparedElement>& cavity, double height) {
   const core_f64::Quadrature rule = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
   double volume = 0;

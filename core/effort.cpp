@@ -115,7 +115,7 @@ Vec3 EffortSolver::arm(const ContactPoint& contact) const { return (contact.plac
 
 Real EffortSolver::gamma() const { return hand_.torsion / unit_length_; }
 
-// Of each digit the contact that does most along a direction, where it does more than nothing.
+// For each digit, the contact that does most along a direction, where it does more than nothing.
 EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
   Best best;
   best.fill(-1);

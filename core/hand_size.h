@@ -7,7 +7,7 @@
 
 namespace wholehand {
 
-// Of the flat hand (every joint straight) at scale 1, m.
+// Sizes of the flat hand (every joint straight) at scale 1, m.
 struct HandSize {
   double length = 0;   // from the wrist to the tip of the middle finger, along the hand (-z)
   double breadth = 0;  // across the knuckles (x), from skin to skin: MCP of the index finger to MCP of the little finger

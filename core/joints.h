@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the 24 joints are numbered: the thumb's four from its base to its tip, then five of each other finger.
+// How the 24 joints are numbered and named: the thumb's four from its base to its tip, then five of each other finger.
 #pragma once
 
 #include <array>

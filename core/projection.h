@@ -73,7 +73,7 @@ struct RestingFinger {
   bool undecided = false;  // it touched or passed the wall so aslant that rounding may decide which of the two
 };
 
-// Of three joints' angles or rates those of the segments.
+// The segments' angles or rates from those of three joints.
 Vec3 chain_sums(Vec3 joints);
 // The segments' angles where the motion is, rad.
 Vec3 segment_angles(const FingerMotion& motion);

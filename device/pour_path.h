@@ -32,7 +32,7 @@ class PourPath {
   // Nothing is poured: as high as the table.
   PourPath() = default;
 
-  // Of the tips, world of the right hand, m; continuous in the tilt (rad). Beyond SIM_LARGEST_TILT as there.
+  // The middle of the tips, world of the right hand, m; continuous in the tilt (rad). Beyond SIM_LARGEST_TILT it stays as there.
   core_f64::Vec3 middle(double tilt) const noexcept;
 
  private:

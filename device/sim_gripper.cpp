@@ -47,7 +47,7 @@ class Delay {
   std::size_t at_ = 0;
 };
 
-// Of variance 1: reproducible everywhere, which a library's normal distribution is not.
+// Variance 1. Reproducible everywhere, which a library's normal distribution is not.
 double uniform(std::mt19937_64& random) noexcept { return (unit_interval(random()) - 0.5) * std::sqrt(12.0); }
 
 // Noise about one frequency, of standard deviation 1: a circling number that keeps its phase for a while.

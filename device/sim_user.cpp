@@ -202,7 +202,7 @@ void SimUser::begin(Phase phase) noexcept {
   plan_motion();
 }
 
-// Of the middle of the tips.
+// Where the middle of the tips goes.
 Vec3 SimUser::set_down_at() const noexcept {
   const Vec3 destination = live_.scene.task ? in_hand_world(live_.scene.task->destination) : Vec3(0);
   const Vec3 place = job().kind == SimJob::Kind::carry ? destination : live_.vessels[job().vessel].home;

@@ -463,7 +463,7 @@ double Comparer::rests(int field, std::size_t k) const {
   }
 }
 
-// Of a form that is compared, and of the push (core/tolerances.h). A push is held beside the weight, by an effort of both together, and ends
+// The floor of a compared form, and of the push (core/tolerances.h). A push is held beside the weight, by an effort of both together, and ends
 // where the last columns are sqrt(eps) apart. The least friction ends up to a step above a certified bound, at an effort as near to 1: it
 // goes with the effort at least as its inverse, and what rounding takes moves it as much as 1 / effort.
 double Comparer::effort_floor(int field, std::size_t vessel, double truth) const {
@@ -481,7 +481,8 @@ double Comparer::effort_floor(int field, std::size_t vessel, double truth) const
   return EFFORT_SHARE * (truth + scene_.gravity * glass.largest_mass) + 3 * std::sqrt(allowed_.epsilon) * strongest;
 }
 
-// Of a number of which an effort is the search's answer, or a part: the term of holding is the compared form of the worst effort.
+// The floor of a number that is an effort, which is the search's answer, or has one in it: the term of holding is the compared form of
+// the worst effort.
 double Comparer::search_floor(int field, std::size_t plane, std::size_t vessel, const GatheredPlanes& truth,
                               std::size_t grip) const {
   if (!has_effort(scene_)) return 0;

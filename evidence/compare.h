@@ -22,6 +22,7 @@
 
 namespace wholehand {
 
+// What may differ between two evaluations that are both right: numbers by rounding, and outcomes in how many grips.
 // Which precision's rounding and stop tolerance the two sides have: the coarser of the two.
 struct Allowance {
   double epsilon = 0;          // of the reals

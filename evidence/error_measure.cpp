@@ -68,7 +68,7 @@ struct ErrorMeasure::Timed {
   std::vector<double> runs;      // s a grip
   std::vector<double> all_runs;  // of a base: those of the groups before, too
 
-  // Of the same kind of machine, so that one's drift is the other's.
+  // Whether both run on the same kind of machine, so that one's drift is the other's.
   bool is_beside(const Timed& other) const {
     return variant.on_core == other.variant.on_core && variant.precision == other.variant.precision &&
            variant.threads == other.variant.threads;

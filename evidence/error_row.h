@@ -24,7 +24,7 @@ enum ErrorQuantity : int {
   ERROR_TORQUE,    // N m, the one that the scene renders
   ERROR_FEEDBACK,  // N
   ERROR_HOLD,      // N, where it is finite on both sides
-  // Of the whole hand; nothing compares where the scene or its fields lack one.
+  // These are about the whole hand; nothing compares where the scene or its fields lack one.
   ERROR_TABLE_DEPTH,      // um
   ERROR_SELF_DEPTH,       // um, overlap of two fingers
   ERROR_EFFORT,           // these four relative, where they are finite on both sides: the effort of the worst state,

@@ -78,7 +78,7 @@ MeasureOptions measure_options_of(const Scene& scene, const ErrorTimeOptions& op
   measure_options.on = options.on;
   measure_options.threads = threads;
   measure_options.seed = options.seed;
-  // Of all vessels together, so that more of them do not take longer. Efforts take most of the time.
+  // For all vessels together, so that more of them do not take longer. Efforts take most of the time.
   const std::size_t grips = (options.quick ? 768 : 6144) / (has_effort(scene) ? 4 : 1);
   measure_options.grips = std::clamp<std::size_t>(grips / scene.vessels.size(), 64, 4096);
   if (options.quick) measure_options.run_seconds = 0.015;

@@ -28,7 +28,7 @@ class LoadFloors {
   LoadFloors(const Scene& scene, const Evaluator& core, std::size_t vessel, double volume, double rounding,
              const GatheredPlanes& truth);
 
-  // Of plane `plane` of the field, in the field's unit.
+  // The floor of plane `plane` of the field, in the field's unit.
   double of(int field, std::size_t plane, std::size_t grip) const;
 
  private:

@@ -14,7 +14,7 @@ namespace wholehand {
 // Lengths and places are mm of the vessel; `unit` is how many of them a mm of paper shows.
 class DrawnForces {
  public:
-  // Of the state that takes most effort. Empty where the report has no holds, and where no force of the hand holds that state.
+  // Draws the state that takes most effort. Empty where the report has no holds, and where no force of the hand holds that state.
   explicit DrawnForces(const GripReport& report);
 
   bool empty() const { return arrows_.empty(); }

@@ -30,7 +30,7 @@ struct HandNodes {
 
 // Nodes of the posed hand of a feasible grip: positions are result.posed.
 HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result);
-// Of any hand, in the frame of `points`: the hand frame's origin lies at `wrist` and is turned by `rotation` (of a left hand, whose frame has the
+// The nodes of any hand, in the frame of `points`: the hand frame's origin lies at `wrist` and is turned by `rotation` (of a left hand, whose frame has the
 // mirrored +y and +z, as the nodes have it). `ready`: the same hand, loaded; `scale` times the hand's own. Allocates nothing.
 HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Triple& wrist, const Rotation& rotation,
                      const std::array<Triple, JOINT_COUNT>& points, double scale = 1);

@@ -35,7 +35,7 @@ struct StateHold {
 
 class Holding {
  public:
-  // Of a feasible grip in a scene with strengths; `pour` is the report's. `scene` and `evaluator`, made for it, must outlive this.
+  // For a feasible grip in a scene with strengths; `pour` is the report's. `scene` and `evaluator`, made for it, must outlive this.
   Holding(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result, const Triple& pour);
 
   // At the opening of the grip.

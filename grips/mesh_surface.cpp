@@ -32,7 +32,7 @@ std::uint32_t corner_at(const MeshBody& body, std::uint32_t triangle, std::uint3
   return 3 * triangle + static_cast<std::uint32_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
 }
 
-// Of a triangle at its k-th corner, rad; 0 where it has no area.
+// The angle of a triangle at its k-th corner, rad; 0 where it has no area.
 double corner_angle(const MeshBody& body, std::uint32_t triangle, int k) {
   const auto point = [&](int n) { return to_vec3(body.vertices[body.triangles[triangle][n % 3]]); };
   const glm::dvec3 a = point(k + 1) - point(k), b = point(k + 2) - point(k);

@@ -55,7 +55,7 @@ class WrenchSet {
     for (const ContactPoint& contact : contacts) contacts_.push_back({(contact.place - center) / scale, contact.normal, 0});
   }
 
-  // Of the contacts' wrenches at unit normal force, without 0.
+  // The support of the contacts' wrenches at unit normal force, without 0.
   Support of_contacts(const Point6& direction) const {
     std::pair<double, const ContactPoint*> best{-HUGE_VAL, nullptr};
     for (const ContactPoint& contact : contacts_) best = std::max(best, {press(contact, direction, nullptr), &contact});

@@ -17,7 +17,7 @@ inline constexpr std::string_view GRIP_SVG_MARK = "<title id=\"title\">Grip of "
 // the thumb-index line across; the top view above it; the side view beside it, from the right. Posed joints with their skin, seen through
 // the glass where they are behind it. With a title and a description for screen readers.
 // Where the report has holds, arrows show the contact forces of the hardest state, unless no force holds it (grips/forces.h).
-// Of a mesh what is seen: contours, open edges and edges of 30 degrees or more.
+// Draws what is seen of a mesh: contours, open edges and edges of 30 degrees or more.
 // Throws Error: (usage) where the grip is not feasible, (failure) where the vessel's mesh has not been read.
 std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& report);
 

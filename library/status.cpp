@@ -11,7 +11,7 @@
 namespace wholehand {
 namespace {
 
-// Of a fixed length, so that a failure for lack of memory can be told.
+// Has a fixed length, so that it can report a failure for lack of memory.
 thread_local char message[2048] = "";
 
 // What the program says of its options, the C face says of its arguments.

@@ -33,7 +33,7 @@ struct HandHold {
   double tips_force() const { return tips * strength; }
 };
 
-// Of a tick that holds a vessel, which is at `vessel`; `posed` are the joints that rest on it. World frame of the scene. Nothing
+// The hold of a tick that holds a vessel, which is at `vessel`; `posed` are the joints that rest on it. World frame of the scene. Nothing
 // where the scene has no strengths, or nothing is held. A function of these alone, so that a recording shows what its session did.
 std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
                                   const std::array<Triple, JOINT_COUNT>& posed);

@@ -14,7 +14,7 @@ constexpr std::int64_t LAST_TICK = std::int64_t{1} << 53;  // a time is this num
 constexpr double FURTHEST_POSITION = 25;
 constexpr double WIDEST_GAP = 10;  // m, either way
 
-// Of a finite measurement.
+// Whether a finite measurement is within reach.
 inline bool is_in_reach(const GripperState& state) noexcept {
   for (const double x : state.position)
     if (std::abs(x) > FURTHEST_POSITION) return false;

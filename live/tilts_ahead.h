@@ -34,7 +34,7 @@ struct TiltsAhead {
   double other_worst() const;
 };
 
-// Of a tick that holds a vessel; `hand` is the posture of that tick. Nothing where nothing is held or the scene has no strengths.
+// For a tick that holds a vessel; `hand` is the posture of that tick. Nothing where nothing is held or the scene has no strengths.
 std::optional<TiltsAhead> tilts_ahead(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
                                       const std::array<Triple, JOINT_COUNT>& posed);
 

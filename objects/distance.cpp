@@ -32,7 +32,7 @@ constexpr double CLEARLY_OFF = 1e-14;  // of the squared distance: an edge seen 
 constexpr double COARSE_OPENING = 2, FINE_OPENING = 8;  // of clusters: to 0.06, to 0.001
 constexpr double WINDING_DOUBT = 0.06;
 
-// Of a point at `from` from the start of a segment.
+// The squared distance between a segment and a point, which lies at `from` as seen from the segment's start.
 inline double segment_distance_squared(const glm::dvec3& from, const glm::dvec3& along) {
   const double squared = glm::dot(along, along);
   const double t = squared > 0 ? std::clamp(glm::dot(from, along) / squared, 0.0, 1.0) : 0;

@@ -24,7 +24,7 @@ struct MeshHoles {
   std::size_t loose_edges = 0;  // open edges that are part of no loop: their triangles turn opposite ways
 };
 
-// Of a mesh whose triangles share their corners. A loop that meets itself in a vertex is two loops.
+// The holes of a mesh whose triangles share their corners. A loop that meets itself in a vertex is two loops.
 MeshHoles find_holes(const TriangleMesh& mesh);
 
 // `extent`: the mesh's largest, m.

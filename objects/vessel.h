@@ -56,7 +56,7 @@ bool has_meshes(const Scene& scene);
 std::string mesh_lines(const Scene& scene);
 // The keys of all bodies, which tell whether two scenes have the same meshes; empty without any.
 std::string mesh_keys(const Scene& scene);
-// Of all lattices their spacing (m) and bits, "0.001 32 0.0012 16": what makes the same ones again, whatever the memory here allows.
+// The spacing (m) and bits of all lattices, "0.001 32 0.0012 16": what makes the same ones again, whatever the memory here allows.
 std::string mesh_lattices(const Scene& scene);
 
 }  // namespace wholehand

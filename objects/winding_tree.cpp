@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t WINDING_LEAF = 8;  // triangles
 
-// Of a triangle seen from the origin, signed: van Oosterom and Strackee (1983). 0 where it is seen edge on.
+// The solid angle of a triangle seen from the origin, signed: van Oosterom and Strackee (1983). 0 where it is seen edge on.
 double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
   const double above = glm::dot(a, glm::cross(b, c));

@@ -35,7 +35,7 @@ constexpr std::array<Segment, SEGMENT_COUNT> SEGMENTS{{
     {15.96, 2.45, 3.73, 0.62},  // little
 }};
 
-// Of a half of women and a half of men: each sex has its own, and their means differ.
+// The variation of length among people of whom a half are women: each sex has its own variation, and the means differ.
 double length_variation() {
   const Surveyed &women = hand_survey(Sex::female).length, &men = hand_survey(Sex::male).length;
   const double apart = men.mean - women.mean;

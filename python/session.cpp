@@ -105,7 +105,7 @@ class SessionHandle {
     return step_;
   }
 
-  // Of the last step.
+  // The last step.
   const Step& last() {
     enter();
     if (last_ < 0) throw usage_error("session: there is no hand before the first step");

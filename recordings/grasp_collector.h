@@ -24,7 +24,7 @@ class GraspCollector {
   std::vector<GraspReport> finish();
 
  private:
-  // Of each vessel, by its number in the session.
+  // For each vessel, by its number in the session.
   using Volumes = std::array<double, LIVE_VESSELS>;  // m3
   // A grasp whose liquid may still be in the air.
   struct Pouring {

@@ -26,7 +26,7 @@ ReportedGrips read_grips(const ReportSource& source, std::size_t list);
 void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best,
                  const std::string& id);
 
-// Of a drawing by grip_svg, the front and the side view with larger letters: to be seen beside others. The whole drawing where its views are
+// The front and the side view of a drawing by grip_svg, with larger letters, to be seen beside others. The whole drawing where its views are
 // not found.
 std::string front_and_side(const std::string& drawing);
 

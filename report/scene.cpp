@@ -115,7 +115,7 @@ std::string form_text(const VesselData& vessel) {
                      vessel.surface == Surface::shell ? ", a shell" : "");
 }
 
-// Of an outline that can be made ready; NaN for a mesh that is not there.
+// The width of an outline that can be made ready; NaN for a mesh that is not there.
 double widest(const ReportSource& source, const VesselData& vessel) {
   if (vessel.mesh && vessel.mesh->body) {
     const MeshBody& body = *vessel.mesh->body;

@@ -19,7 +19,7 @@ int corner_turn(const PlaneCurve& first, const PlaneCurve& second);
 // The fillet of `radius` at the corner that `first` ends and `second` begins at; nothing where none touches both.
 std::optional<Fillet> make_fillet(const PlaneCurve& first, const PlaneCurve& second, double radius);
 
-// Of the radii up to `radius` the largest that fits, rounded down to a millionth of the unit; 0: none does.
+// The largest of the radii up to `radius` that fits, rounded down to a millionth of the unit; 0: none does.
 double largest_fillet(const PlaneCurve& first, const PlaneCurve& second, double radius);
 
 }  // namespace wholehand

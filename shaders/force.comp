@@ -91,7 +91,7 @@ Held held_by(uint grip) {
   return held;
 }
 
-// Of one fill, over those of its tilts so far that count.
+// Terms of one fill, over those of its tilts so far that count.
 struct FillTerms {
   Real peak_square, peak_tilt, largest_hold, safe_tilt;
   bool safe;

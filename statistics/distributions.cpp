@@ -11,7 +11,7 @@ constexpr double TINY = 1e-300, END = 1e-16;
 
 double away_from_zero(double x) { return std::abs(x) < TINY ? TINY : x; }
 
-// Of numbers above 0. std::lgamma writes the sign of the gamma function to a global, which is a race between threads.
+// For numbers above 0. std::lgamma writes the sign of the gamma function to a global, which is a race between threads.
 double log_gamma(double x) {
   int sign = 0;
   return ::lgamma_r(x, &sign);

@@ -22,7 +22,7 @@ struct Share {
 };
 Share share_of(std::size_t yes, std::size_t of);
 
-// Of ascending values, at least one, by linear interpolation: share 0 is the first, share 1 the last.
+// A percentile of ascending values, at least one, by linear interpolation: share 0 is the first, share 1 the last.
 double percentile_of(std::span<const double> ascending, double share);
 
 // From the 2.5th to the 97.5th percentile of values in any order; NaN of none.

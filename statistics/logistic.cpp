@@ -44,7 +44,7 @@ bool solve_positive(Normal a, Unknowns& b) {
   return true;
 }
 
-// Of a term over the rows; scale 0: it does not vary.
+// A term's mean and scale over the rows; scale 0: it does not vary.
 struct TermScale {
   double mean = 0, scale = 0;
 };

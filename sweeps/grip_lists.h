@@ -23,7 +23,7 @@ using GripLists = std::vector<std::vector<RankedCandidate>>;
 // Tells sweeps apart: the same for the same scene, meshes, program, device, driver and precision. "sweep-" and 16 hexadecimal digits.
 std::string sweep_id(const SweepOrigin& origin);
 
-// Of a sweep that is under way, as far as its id goes; and of the lists of its result file.
+// The origin of a sweep that is under way, as far as its id goes, and that of the lists of its result file.
 SweepOrigin origin_of(const Scene& scene, const std::string& version, const BackendInfo& info);
 ListOrigin list_origin(const std::string& result, const SweepOrigin& origin);
 

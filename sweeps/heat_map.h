@@ -41,7 +41,7 @@ class HeatMap {
 
   const MapAxis& heights() const { return heights_; }
   const MapAxis& rolls() const { return rolls_; }
-  // Of a cell, NaN where no grip is feasible.
+  // The value of a cell, NaN where no grip is feasible.
   double score(std::size_t height, std::size_t roll) const { return scores_[height * rolls_.cells() + roll]; }
 
   // All cells, height-major, for keeping them across a break.

@@ -21,7 +21,7 @@ CellKind kind_of(double score) {
   return has_score(score) ? CellKind::filled : CellKind::hollow;
 }
 
-// Of all pictures.
+// One scale of colors for all pictures.
 ColorScale common_scale(const std::vector<HeatMapPicture>& pictures) {
   double low = INFINITY, high = -INFINITY;
   for (const HeatMapPicture& picture : pictures) {

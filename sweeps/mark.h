@@ -67,7 +67,7 @@ struct VesselProgress {
   std::vector<double> heat_map;  // HeatMap::scores(); empty without one
 };
 
-// Of a sweep whose grips lie in several files.
+// For a sweep whose grips lie in several files.
 struct ShardMark {
   std::string id;         // of all its shards
   RunLayout layout;       // of the grips in all of them

@@ -28,7 +28,7 @@ struct SweepOrigin {
   Precision precision = Precision::full;
   double wall_seconds = 0, kernel_seconds = 0;
   double bytes = 0;  // of the file
-  // Of a scene with meshes, else empty: where it lay, what was found of each mesh, what tells whether they are still the
+  // For a scene with meshes, else empty: where it lay, what was found of each mesh, what shows whether they are still the
   // same, and the lattices by which they were read.
   std::string scene_file, meshes, mesh_keys, mesh_lattices;
 };
@@ -86,7 +86,7 @@ class SweepResult {
   // The tilts at which a vessel starts to pour, one for each of the scene's fills, rad; NaN where it never does.
   std::vector<double> pouring_tilts(std::size_t vessel) const;
 
-  // Of all vessels their mouths' height and their lowest points, m; known before `use`.
+  // Heights of the mouths and lowest points of all vessels, m; known before `use`.
   std::vector<double> vessel_heights() const;
   std::vector<double> vessel_bases() const;
   std::vector<double> empty_masses() const;  // of all vessels, kg

@@ -20,7 +20,7 @@ class RunsChecksum {
   RunsChecksum& operator=(RunsChecksum&&) noexcept;
 
   void add(std::size_t run, const void* data, std::size_t size);
-  // Of all runs so far, as hexadecimal digits; more may follow.
+  // The checksum of all runs so far, as hexadecimal digits; more may follow.
   std::string text() const;
 
  private:
@@ -28,7 +28,7 @@ class RunsChecksum {
   std::vector<std::unique_ptr<Hash>> runs_;
 };
 
-// Of one piece of data.
+// The checksum of one piece of data.
 std::string checksum_text(const void* data, std::size_t size);
 
 // 64 bits of it, which depend on `before` as well.
@@ -43,7 +43,7 @@ struct FileRange {
 // Adds a range of an open file to a run; what the file does not have of it is left out. False: it cannot be read.
 bool add_range(RunsChecksum& checksum, std::size_t run, int file, FileRange range);
 
-// Of an open file but for some ranges, which are in the file's order; and its length. Nothing where it cannot be read.
+// The checksum of an open file but for some ranges, which are in the file's order; and its length. Nothing where it cannot be read.
 std::optional<std::string> checksum_without(int file, const std::vector<FileRange>& ranges);
 
 }  // namespace wholehand

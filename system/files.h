@@ -101,7 +101,7 @@ void rename_file(const std::string& from, const std::string& to);
 // Renames onto nothing, or onto an empty file. False: something else is there, and stays. Throws Error (failure).
 bool rename_onto_nothing(const std::string& from, const std::string& to);
 
-// Unknown also where no regular file is there that can be read. Waits for no pipe.
+// What a file is. Unknown also where no regular file is there that can be read. Waits for no pipe.
 FileKind file_kind_at(const std::string& path);
 
 }  // namespace wholehand

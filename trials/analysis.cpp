@@ -81,7 +81,7 @@ void count_trial(TrialCount& count, const TrialOutcome& outcome, const TrialSett
   count.slipped += outcome.held && has_slipped(outcome, settings) ? 1 : 0;
 }
 
-// Of a vessel, a row for each fill and tilt, or one for the pushes.
+// A row for each fill and tilt of a vessel, or one for the pushes.
 void add_successes(const TriedGrips& tried, const TrialSettings& settings, const TrialGroup& group, std::size_t vessel,
                    std::vector<SuccessRow>& rows) {
   const std::vector<TrialCase>& cases = tried.cases[vessel];
@@ -104,7 +104,7 @@ void add_successes(const TriedGrips& tried, const TrialSettings& settings, const
   }
 }
 
-// Of a vessel's trials of the group that were held, those that slipped.
+// The trials of a vessel in the group that were held and slipped.
 Share slipped_of(const TriedGrips& tried, const TrialSettings& settings, const TrialGroup& group, std::size_t vessel) {
   std::size_t slipped = 0, held = 0;
   for (std::size_t g = 0; g < tried.grips.size(); ++g) {

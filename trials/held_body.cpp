@@ -16,7 +16,7 @@ using core_f64::Vec3;
 const char* const CONTACT = "condim=\"4\" solref=\"0.005 1\" solimp=\"0.5 0.99 0.0001\"";
 
 Vec3 column(const mjtNum* p) { return {p[0], p[1], p[2]}; }
-// Of a matrix by rows, and its transpose.
+// Products of a vector with a matrix by rows, and with its transpose.
 Vec3 turned_by(const mjtNum* m, const Vec3& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z, m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }

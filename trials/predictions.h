@@ -47,7 +47,7 @@ constexpr std::size_t TRIAL_FACETS = 2'000;  // of the hull for epsilon: 15 ms a
 // By the core in double precision, with the mass and the friction of the trials in place of the scene's. Thread-safe.
 class TrialPredictor {
  public:
-  // Of a scene with strengths and tilts.
+  // For a scene with strengths and tilts.
   TrialPredictor(const Scene& scene, const TrialSettings& settings);
 
   // `grip` is feasible.

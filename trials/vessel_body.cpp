@@ -200,7 +200,7 @@ SliceSum revolved_sum(const std::vector<Point2>& points, double low, double high
   return sum;
 }
 
-// Of a body of density 1 about the origin.
+// Moments of a body of density 1 about the origin.
 struct Moments {
   double volume = 0;
   glm::dvec3 first{};

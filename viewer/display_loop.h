@@ -81,7 +81,7 @@ class DisplayLoop {
   std::int64_t ticks_ = 0;
   ViewFrame::Timing timing_;
 
-  // Of the loop's own thread: ticks counted at the last moments, a second of them, for the rate.
+  // Belongs to the loop's own thread: ticks counted at the last moments, a second of them, for the rate.
   struct Count {
     std::int64_t ticks = 0, number = 0;
   };

@@ -14,7 +14,7 @@
 
 namespace wholehand {
 
-// A place and a turn, world frame of the scene.
+// The hand of an advised grip, where it would be now: a place and a turn for each node, world frame of the scene.
 struct GhostNode {
   Triple place{};
   Quaternion turn{0, 0, 0, 1};
@@ -25,7 +25,7 @@ struct GhostHand {
   std::array<GhostNode, JOINT_COUNT> joints;
 };
 
-// Of the best grip, on its vessel where that is. Nothing where no grip is better than the present one.
+// The hand of the best grip, on its vessel at the vessel's present pose. Absent where no grip is better than the present one.
 std::optional<GhostHand> ghost_of(const Scene& scene, const Advice& advice, const VesselPoses& poses);
 
 // What is advised, world frame.

@@ -157,7 +157,7 @@ class GripsView::Impl {
     std::unique_ptr<const Holding> holding;  // in a scene with strengths
   };
 
-  // Of a line that is vertical some direction.
+  // Any direction where the line is vertical.
   Vec3 pour_of(const GripInput& grip) const {
     const Vec3 to = to_vec3(pour_direction(scene_, grip));
     return glm::length(to) < 0.5 ? Vec3(1, 0, 0) : to;

@@ -139,7 +139,7 @@ TEST_F(CommandUnheld, WhereSomeHoldTheListSaysByHowMuch) {
   expect_error("rank " + result + " --where 'not_held_' ", 2, "the nearest is 'not_held'");
 }
 
-// Of several hand scales each has a verdict, which says as much where the others hold.
+// Each of several hand scales has a verdict, also where the others hold.
 TEST_F(CommandUnheld, AHandThatIsTooSmallHasItsOwnVerdict) {
   write_scene("4", 1, "[0.8, 1]");
   const Outcome swept = sweep();

@@ -23,10 +23,6 @@ TEST(Joints, AreNumberedFingerByFinger) {
   EXPECT_EQ(INDEX_TIP, finger_start(1) + finger_joints(1) - 1);
 }
 
-}  // namespace
-
-namespace {
-
 TEST(JointNames, AreThoseOfTheJoint) {
   EXPECT_EQ(joint_key(2), "thumb_ip");
   EXPECT_EQ(joint_key(7), "index_dip");
@@ -41,5 +37,4 @@ TEST(JointNames, AreThoseOfTheJoint) {
 }
 
 }  // namespace
-
 }  // namespace wholehand
