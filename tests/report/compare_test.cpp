@@ -86,13 +86,29 @@ TEST(CompareResults, SaysThatNothingDiffers) {
 }
 
 TEST(CompareResults, AHandThatNoLongerFitsHasAReason) {
-  const auto parts = compared(RESULT_SCENE, edited(RESULT_SCENE, "[liquid]", "[hand]\nscale = 0.6\n\n[liquid]"));
+  const std::string small = edited(RESULT_SCENE, "[liquid]", "[hand]\nscale = 0.6\n\n[liquid]");
+  const auto parts = compared(RESULT_SCENE, small);
   EXPECT_EQ(parts[0].sentences[0], "Scores are not of one rule: other hand.");
   EXPECT_EQ(parts[0].changes, (std::vector<std::string>{"+ [hand]", "+ [hand] scale = 0.6"}));
   EXPECT_NE(row_of(parts[1], "feasible")[2][0], '+');
   std::size_t infeasible = 0;
   for (const auto& row : parts[1].tables.at(1).rows) infeasible += row[2].starts_with("infeasible: too wide") ? 1 : 0;
   EXPECT_GT(infeasible, 0u) << comparison_text(parts);
+
+  // the other way round A lists none, and B's first grips have their reasons
+  const auto back = compared(small, RESULT_SCENE);
+  EXPECT_EQ(back[1].sentences[0], "A lists no grip of it.");
+  const CompareTable& of_b = back[1].tables.at(1);
+  EXPECT_EQ(std::vector<std::string>(of_b.columns.begin(), of_b.columns.begin() + 5),
+            (std::vector<std::string>{"grip", "rank in B", "in A", "score B", "score A"}));
+  const SweptScene usual(RESULT_SCENE);
+  const auto listed = usual.result->best(0);
+  ASSERT_EQ(of_b.rows.size(), listed.size());
+  for (std::size_t k = 0; k < listed.size(); ++k) {
+    EXPECT_EQ(of_b.rows[k][1], std::to_string(k + 1));
+    EXPECT_EQ(of_b.rows[k][2], parts[1].tables[1].rows[k][2]);
+    EXPECT_EQ(of_b.rows[k][3], fmt::format("{:.3f}", listed[k].score));
+  }
 }
 
 TEST(CompareResults, NamesVesselsOfOneFileAndCutsLongChanges) {
