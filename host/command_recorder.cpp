@@ -4,8 +4,23 @@
 #include <cmath>
 
 namespace wholehand::host {
+namespace {
+
+using Access = vk::AccessFlagBits;
+using Stage = vk::PipelineStageFlagBits;
+
+// A family for copies alone has no stage and no access of shaders.
+Work work_of(bool only_copies) {
+  if (only_copies) return {Stage::eTransfer, Access::eTransferRead, Access::eTransferWrite};
+  return {Stage::eComputeShader | Stage::eTransfer, Access::eShaderRead | Access::eUniformRead | Access::eTransferRead,
+          Access::eShaderWrite | Access::eTransferWrite};
+}
+
+}  // namespace
+
 CommandRecorder::CommandRecorder(DeviceState& device, std::uint32_t family)
     : device_(device),
+      work_(work_of(family != device.compute.family)),
       pool_(*device.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family}),
       buffers_(*device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1}) {}
 
@@ -17,12 +32,13 @@ CommandRecorder::~CommandRecorder() {
 void CommandRecorder::begin() { buffers_[0].begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit}); }
 
 void CommandRecorder::end() {
-  barrier(WORK | vk::PipelineStageFlagBits::eHost, READS | WRITES | vk::AccessFlagBits::eHostRead | vk::AccessFlagBits::eHostWrite);
+  const vk::AccessFlags access = work_.reads | work_.writes | Access::eHostRead | Access::eHostWrite;
+  buffers_[0].pipelineBarrier(work_.stages, work_.stages | Stage::eHost, {}, vk::MemoryBarrier(work_.writes, access), {}, {});
   buffers_[0].end();
 }
 
-void CommandRecorder::barrier(vk::PipelineStageFlags to_stages, vk::AccessFlags to_access) {
-  buffers_[0].pipelineBarrier(WORK, to_stages, {}, vk::MemoryBarrier(WRITES, to_access), {}, {});
+void CommandRecorder::barrier() {
+  buffers_[0].pipelineBarrier(work_.stages, work_.stages, {}, vk::MemoryBarrier(work_.writes, work_.reads | work_.writes), {}, {});
 }
 
 void CommandRecorder::copy(const BufferState& from, const BufferState& to, std::size_t bytes) {

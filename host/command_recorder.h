@@ -6,11 +6,11 @@
 
 namespace wholehand::host {
 
-// What waits for what: everything that a command buffer of ours does, and how it reaches memory.
-constexpr vk::PipelineStageFlags WORK = vk::PipelineStageFlagBits::eComputeShader | vk::PipelineStageFlagBits::eTransfer;
-constexpr vk::AccessFlags WRITES = vk::AccessFlagBits::eShaderWrite | vk::AccessFlagBits::eTransferWrite;
-constexpr vk::AccessFlags READS =
-    vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eUniformRead | vk::AccessFlagBits::eTransferRead;
+// Stages that work and how they reach memory, for barriers of a queue family.
+struct Work {
+  vk::PipelineStageFlags stages;
+  vk::AccessFlags reads, writes;
+};
 
 class CommandRecorder {
  public:
@@ -24,13 +24,13 @@ class CommandRecorder {
   vk::CommandBuffer commands() const { return *buffers_[0]; }
 
  protected:
-  // What was written before is visible to those stages and accesses.
-  void barrier(vk::PipelineStageFlags to_stages, vk::AccessFlags to_access);
+  void barrier();  // what was written before is visible to what follows
   const vk::raii::CommandBuffer& buffer() const { return buffers_[0]; }
 
   DeviceState& device_;
 
  private:
+  Work work_;
   vk::raii::CommandPool pool_;
   vk::raii::CommandBuffers buffers_;
 };

@@ -39,7 +39,7 @@ void StepRecorder::steps(const Commands& commands) {
     out.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 0);  // bottom: when what came before has finished
   }
   for (const Commands::Step& step : commands.steps()) {
-    barrier(WORK, READS | WRITES);
+    barrier();
     if (!step.kernel) {
       out.fillBuffer(*step.buffers[0]->state().buffer, 0, VK_WHOLE_SIZE, 0);
       continue;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What a discrete GPU would meet: memory that the host does not see, queues that only copy, one grip an invocation. A layer shows lavapipe as
+// such a device, and the validation layer above it judges what each of its queues is given.
+// sanitizers: none
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "core/prepare.h"
+#include "evidence/compare.h"
+#include "host/grip_backend.h"
+#include "tests/support/environment.h"
+#include "tests/support/files.h"
+#include "tests/support/scenes.h"
+#include "tests/support/vulkan_listener.h"
+
+namespace wholehand {
+namespace {
+
+Scene carried() {
+  Scene scene = scene_of({beaker1(), beaker3()}, Pose::articulated, left_hand());
+  scene.liquid = LiquidData{};
+  scene.liquid->fills = {0, 0.6};
+  scene.tilts = {0, radians(40), radians(110)};
+  scene.strength = StrengthData{};
+  return scene;
+}
+
+std::unique_ptr<host::GripBackend> backend_of(const Scene& scene) {
+  const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS, FIELD_MIDPOINT, FIELD_PEAK_FORCE, FIELD_WORST_EFFORT}, scene);
+  host::GripBackendOptions options;
+  options.stream.first_items = 512;
+  return std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, "vulkan", options);
+}
+
+std::vector<GatheredPlanes> planes_of(const Scene& scene, host::GripBackend& backend) {
+  std::vector<GatheredPlanes> planes;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v)
+    planes.push_back(gather(backend, v, sample_grips(scene.vessels[v], 3000, 7 + v)));
+  return planes;
+}
+
+TEST(DiscreteGpu, GivesTheBitsOfTheSameDeviceWithOneQueueForAll) {
+  const Scene scene = carried();
+  const std::vector<GatheredPlanes> direct = planes_of(scene, *backend_of(scene));
+
+  const TemporaryFolder folder;
+  write_file(folder / "discrete_gpu.json", R"({"file_format_version": "1.2.0", "layer": {"name": "VK_LAYER_WHOLEHAND_discrete_gpu",
+    "type": "GLOBAL", "library_path": ")" STAND_IN_DISCRETE_GPU R"(", "api_version": "1.3.0", "implementation_version": "1",
+    "description": "lavapipe as a discrete GPU"}})");
+  const ScopedVariable path("VK_LAYER_PATH",
+                            ("/usr/share/vulkan/explicit_layer.d:" + folder.path()).c_str());  // from the program down
+  const ScopedVariable layers("VK_INSTANCE_LAYERS",
+                              "VK_LAYER_KHRONOS_validation:VK_LAYER_WHOLEHAND_discrete_gpu");  // from the program down
+  const auto backend = backend_of(scene);
+  ASSERT_EQ(backend->device().kind, host::DeviceKind::discrete);
+  ASSERT_FALSE(backend->device().unified_memory);
+  const std::vector<GatheredPlanes> staged = planes_of(scene, *backend);
+  for (std::size_t v = 0; v < staged.size(); ++v) {
+    const auto has_same_bits = [](double a, double b) {
+      return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    };
+    EXPECT_TRUE(std::ranges::equal(staged[v].reals, direct[v].reals, has_same_bits));
+    EXPECT_EQ(staged[v].uints, direct[v].uints);
+  }
+}
+
+}  // namespace
+}  // namespace wholehand
