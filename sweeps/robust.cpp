@@ -63,13 +63,15 @@ class RobustRanking {
   bool run() {
     std::vector<Judged*> everyone;
     for (Judged& one : judged_) everyone.push_back(&one);
-    if (!judge(everyone, 0)) return false;
+    if (!judge(everyone, 0, 1)) return false;
     // Those that look best so far first: they soon say what the others have to reach.
     const std::vector<Judged*> likely = likely_ones();
+    for (std::size_t part = 1, end; part < PARTS; part = end) {
+      for (end = part + 1; end < PARTS && level_of(end) == level_of(part);) ++end;  // at once, so that no thread waits between them
+      if (!judge(likely, part, end)) return false;
+    }
     for (std::size_t part = 1; part < PARTS; ++part)
-      if (!judge(likely, part)) return false;
-    for (std::size_t part = 1; part < PARTS; ++part)
-      if (!judge(open_ones(part), part)) return false;
+      if (!judge(open_ones(part), part, part + 1)) return false;
     return true;
   }
 
@@ -94,6 +96,7 @@ class RobustRanking {
 
  private:
   std::size_t first_of(std::size_t part) const { return part * all_.size() / PARTS; }
+  std::size_t level_of(std::size_t part) const { return part * frictions_.size() / PARTS; }
   bool is_done(const Judged& one) const { return one.parts == PARTS; }
 
   static RobustScore score_of(const Judged& one) { return robust_score(one.scores, one.held); }
@@ -144,28 +147,29 @@ class RobustRanking {
   }
 
   Backend& backend(std::size_t part) {
-    std::unique_ptr<Backend>& opened = backends_[part * frictions_.size() / PARTS];
+    std::unique_ptr<Backend>& opened = backends_[level_of(part)];
     if (!opened) {
       Scene other = scene_;
-      other.force.friction = frictions_[part * frictions_.size() / PARTS];
+      other.force.friction = frictions_[level_of(part)];
       opened = open_(other, make_field_set({FIELD_SCORE, FIELD_STATUS}, other));
     }
     return *opened;
   }
 
-  bool judge(const std::vector<Judged*>& ones, std::size_t part) {
+  // Parts from `part` to before `end`, which have one friction.
+  bool judge(const std::vector<Judged*>& ones, std::size_t part, std::size_t end) {
     for (std::size_t vessel = 0; vessel < scene_.vessels.size(); ++vessel) {
       std::vector<Judged*> own;
       for (Judged* one : ones)
         if (one->list / plan_.hand_scales() == vessel) own.push_back(one);
-      if (!own.empty() && !evaluate(vessel, own, part)) return false;
+      if (!own.empty() && !evaluate(vessel, own, part, end)) return false;
     }
     return true;
   }
 
-  bool evaluate(std::size_t vessel, const std::vector<Judged*>& ones, std::size_t part) {
+  bool evaluate(std::size_t vessel, const std::vector<Judged*>& ones, std::size_t part, std::size_t end) {
     if (stop_ && *stop_) return false;
-    const std::size_t first = first_of(part), each = first_of(part + 1) - first;
+    const std::size_t first = first_of(part), each = first_of(end) - first;
     Backend& used = backend(part);
     const FieldSet& fields = used.fields();
     RunRequest request;
@@ -192,7 +196,7 @@ class RobustRanking {
       throw failure_error(
           fmt::format("{}: evaluated {} of the {} deviations of the best grips", used.info().device, result.done, request.last));
     }
-    for (Judged* one : ones) one->parts = part + 1;
+    for (Judged* one : ones) one->parts = end;
     return true;
   }
 

@@ -534,7 +534,7 @@ bool Sweep::complete(BestLists& best, InterruptGuard& interrupt) const {
     if (is_asked_to_end(interrupt)) interrupt.flag() = true;
     return interrupt.flag().load();
   };
-  if (best_wanted_ > 0 && !rank_robustly(parts_.open_other, scene_, plan(), best_wanted_, &interrupt.flag(), best, look))
+  if (best_wanted_ > 0 && !rank_robustly(parts_.open_core, scene_, plan(), best_wanted_, &interrupt.flag(), best, look))
     return false;
   return !refines() || refine_lists(*evaluator_, scene_, plan(), options_.threads, best, look);
 }
@@ -592,7 +592,7 @@ std::string Sweep::counts_text(std::size_t v) const {
 double Sweep::gate(std::size_t v) const { return gate_tolerance(scene_, facts_[v].empty_mass); }
 
 void Sweep::finish(ResultFile& file, BestLists best) {
-  describe_best(companions(), *backend_, best);
+  describe_best(companions(), best);
   std::vector<std::vector<RankedGrip>> ranked(best.size());
   for (std::size_t list = 0; list < best.size(); ++list) {
     for (const BestGrip& grip : best[list])

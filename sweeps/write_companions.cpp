@@ -32,20 +32,18 @@ std::vector<std::string> draw_companion_maps(const CompanionRequest& request, co
 
 }  // namespace
 
-void describe_best(const CompanionRequest& request, Backend& swept, std::vector<std::vector<BestGrip>>& lists) {
-  const std::vector<int> needed = best_fields(request.scene);
-  const bool any = std::any_of(lists.begin(), lists.end(), [](const auto& list) { return !list.empty(); });
-  std::unique_ptr<Backend> other;
-  if (any && !std::all_of(needed.begin(), needed.end(), [&](int field) { return is_kept(swept.fields(), field); })) {
-    other = request.parts.open_backend(make_field_set(needed, request.scene));
-  }
+void describe_best(const CompanionRequest& request, std::vector<std::vector<BestGrip>>& lists) {
+  if (std::all_of(lists.begin(), lists.end(), [](const auto& list) { return list.empty(); })) return;
+  const std::unique_ptr<Backend> core =
+      request.parts.open_core(request.scene, make_field_set(best_fields(request.scene), request.scene));
   for (std::size_t list = 0; list < lists.size(); ++list) {
     std::vector<Candidate> candidates;
     for (const BestGrip& grip : lists[list]) candidates.push_back(grip.candidate);
     std::vector<BestGrip> described =
-        evaluate_best(other ? *other : swept, request.scene, request.plan, list / request.plan.hand_scales(), candidates);
+        evaluate_best(*core, request.scene, request.plan, list / request.plan.hand_scales(), candidates);
     for (std::size_t i = 0; i < described.size(); ++i) {
       const BestGrip& known = lists[list][i];
+      described[i].score = known.candidate.score;
       described[i].refined = known.refined;
       described[i].refined_score = known.refined_score;
       described[i].robust = known.robust;

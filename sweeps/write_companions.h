@@ -27,9 +27,9 @@ struct CompanionRequest {
   std::function<void(const std::string&)> note;  // takes what else there is to say, a line each
 };
 
-// Sets whatever is known of the grips of each list beside their places, refinements and robust scores; by a backend of their own where the
-// sweep's does not read all of it back.
-void describe_best(const CompanionRequest& request, Backend& swept, std::vector<std::vector<BestGrip>>& lists);
+// Sets by the core whatever is known of the grips of each list beside their places, scores, refinements and robust scores. A device would have to
+// compile kernels with more outputs, for some sixty grips.
+void describe_best(const CompanionRequest& request, std::vector<std::vector<BestGrip>>& lists);
 
 // Answers the names of the files, as the closing lines have them. `maps` null: the score is not kept, and there are none. `info`: the
 // sweep's.

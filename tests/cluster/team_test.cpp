@@ -117,7 +117,7 @@ roll_deg = { from = -90, to = 30, count = 5 }
     SweepParts parts;
     parts.open_backend = [&](const FieldSet& fields) { return open_backend(scene, fields, "core", Precision::full, 1); };
     parts.open_evaluator = [&] { return make_core_evaluator(scene); };
-    parts.open_other = [](const Scene& other, const FieldSet& fields) {
+    parts.open_core = [](const Scene& other, const FieldSet& fields) {
       return open_backend(other, fields, "core", Precision::full, 1);
     };
     parts.open_output = [&](const std::string& path) { return std::make_unique<LosingDisk>(Team::open_output(path), lost); };

@@ -193,7 +193,7 @@ SweepParts simulated_parts(const Scene& scene) {
   };
   parts.open_backend = open;
   parts.open_evaluator = [] { return std::make_unique<SharedEvaluator>(evaluator); };
-  parts.open_other = [open](const Scene&, const FieldSet& fields) { return open(fields); };
+  parts.open_core = [open](const Scene&, const FieldSet& fields) { return open(fields); };
   parts.open_output = [](const std::string&) { return std::make_unique<SimulatedFile>(); };
   return parts;
 }

@@ -13,6 +13,7 @@
 #include "scene/shipped.h"
 #include "sweeps/different_grips.h"
 #include "sweeps/rank.h"
+#include "sweeps/robust.h"
 #include "sweeps/run.h"
 #include "sweeps/sweep_result.h"
 #include "tests/support/files.h"
@@ -69,6 +70,7 @@ ExitCode sweep_on_device(const Scene& scene, SweepOptions options, bool is_inter
     return backend;
   };
   parts.open_evaluator = [&] { return make_core_evaluator(scene); };
+  parts.open_core = open_core_for;
   options.refine = false;
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();

@@ -224,11 +224,13 @@ TEST_F(RunTest, CoreOnThreadsGivesTheSameFile) {
   const Scene scene = fake_scene();
   SweepOptions options;
   options.output = folder / "a.nc";
-  const SweepParts parts{[&](const FieldSet& fields) {
-                           return std::make_unique<CoreBackend>(std::make_unique<FakeEvaluator>(scene), scene, fields,
-                                                                Precision::full, 3);
-                         },
-                         [&] { return std::make_unique<FakeEvaluator>(scene); }};
+  const auto open = [&](const FieldSet& fields) {
+    return std::make_unique<CoreBackend>(std::make_unique<FakeEvaluator>(scene), scene, fields, Precision::full, 3);
+  };
+  const SweepParts parts{open,
+                         [&] { return std::make_unique<FakeEvaluator>(scene); },
+                         {},
+                         [&](const Scene&, const FieldSet& fields) { return open(fields); }};
   testing::internal::CaptureStdout();
   EXPECT_EQ(run_sweep(scene, options, parts), ExitCode::done);
   testing::internal::GetCapturedStdout();
@@ -246,7 +248,10 @@ TEST_F(RunTest, WhereNotesAreAskedForNothingIsPrinted) {
   scene.robust.emplace().azimuth = 0.1;  // about bodies of revolution it changes nothing, which is a note
   scene.output.best = 0;
   const auto open = [&](const FieldSet& fields) { return std::make_unique<FakeBackend>(scene, fields, Precision::full, 10); };
-  const SweepParts parts{open, [&] { return std::make_unique<FakeEvaluator>(scene); }};
+  const SweepParts parts{open,
+                         [&] { return std::make_unique<FakeEvaluator>(scene); },
+                         {},
+                         [&](const Scene&, const FieldSet& fields) { return open(fields); }};
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   EXPECT_EQ(run_sweep(scene, options, parts), ExitCode::done);
