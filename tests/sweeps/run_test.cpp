@@ -142,7 +142,7 @@ TEST_F(RunTest, EverythingCanBeLeftOutButTheBest) {
   trial.scene.output.keep = std::vector<std::string>{};
   const SweepOutcome outcome = trial.run();
   ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
-  EXPECT_EQ(trial.opened, 2) << "the best grips are evaluated anew with all that is told of them";
+  EXPECT_EQ(trial.opened, 1) << "the core describes the best grips";
   EXPECT_TRUE(has(outcome.notes, "no heat maps: the score is not kept")) << outcome.notes;
   EXPECT_TRUE(has(outcome.out, "\n  280 grips (each at 3 azimuths)\n")) << outcome.out;
   SweepTrial whole(folder / "b.nc");
