@@ -46,6 +46,12 @@ FindVariable find_in(const SweepResult& result) {
   return [&result](const std::string& name) { return result.find(name); };
 }
 
+// Whether a sweep keeps the variable where its scene does not say otherwise.
+bool is_usual(const std::string& name) {
+  return std::ranges::any_of(variable_catalogue(),
+                             [&](const Variable& variable) { return name == variable.name && variable.by_default; });
+}
+
 // The variables of these names; throws for all that are not there. `who` lacks them.
 std::vector<const Variable*> needed(const FindVariable& find, const std::vector<std::string>& names, const std::string& who) {
   std::vector<const Variable*> variables;
@@ -55,6 +61,11 @@ std::vector<const Variable*> needed(const FindVariable& find, const std::vector<
     if (!variables.back()) missing.push_back(name);
   }
   if (missing.empty()) return variables;
+  if (!std::ranges::all_of(missing, is_usual)) {
+    throw usage_error(
+        fmt::format("{} lacks {}, which a sweep keeps on request; add {} to [output] also, or to its keep, and sweep again", who,
+                    joined(missing, ", "), missing.size() == 1 ? "it" : "them"));
+  }
   throw usage_error(
       fmt::format("{} lacks {}, as keep of the sweep does not name {}; add {} to keep, or remove keep, and sweep again", who,
                   joined(missing, ", "), missing.size() == 1 ? "it" : "them", missing.size() == 1 ? "it" : "them"));
@@ -241,7 +252,8 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
   std::vector<std::uint64_t> grips;
   for (const Candidate& candidate : candidates) grips.push_back(candidate.index);
   const auto pick = [&](const std::string& name, std::size_t plane = 0) {
-    return result.pick(*result.find(name), vessel, plane, grips);
+    const Variable* variable = result.find(name);
+    return variable ? result.pick(*variable, vessel, plane, grips) : std::vector<double>(grips.size(), std::nan(""));
   };
   std::vector<BestGrip> best(grips.size());
   for (std::size_t term = 0; term < TERMS.size(); ++term) {
@@ -547,13 +559,22 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
     for (ListProgress& list : rank_vessel(result, scene, plan, v, keys, where.get(), request, posing.get(), ranking))
       best.push_back(std::move(list));
   const auto rows = row_variables(scene);
-  const bool is_whole = std::all_of(rows.begin(), rows.end(), [&](const std::string& name) { return result.find(name); });
+  std::vector<std::string> missing;
+  for (const std::string& name : rows)
+    if (!result.find(name)) missing.push_back(name);
+  const bool has_usual = std::ranges::all_of(missing, [](const std::string& name) { return !is_usual(name); });
   std::unique_ptr<CoreBackend> core;
-  if (!is_whole) {
-    core = std::make_unique<CoreBackend>(posing ? posing : open_core(), scene, make_field_set(best_fields(scene), scene),
-                                         Precision::full, 0);
-    ranking.note =
-        "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
+  try {
+    if (!missing.empty()) {
+      core = std::make_unique<CoreBackend>(posing ? posing : open_core(), scene, make_field_set(best_fields(scene), scene),
+                                           Precision::full, 0);
+    }
+    if (!has_usual)
+      ranking.note =
+          "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
+  } catch (const Error& error) {  // a mesh is not there
+    if (!has_usual) throw;
+    ranking.note = fmt::format("{}; without it {} are left empty", error.what(), joined(missing, ", "));
   }
   std::vector<std::vector<BestGrip>> places(lists);
   for (std::size_t list = 0; list < lists; ++list)
@@ -573,7 +594,7 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
       scores.read(list / scales, grip.candidate.index, 1, &chosen.back().score);
     }
     auto grips =
-        is_whole ? read_rows(result, scene, plan, list / scales, chosen) : evaluate_best(*core, scene, plan, list / scales, chosen);
+        core ? evaluate_best(*core, scene, plan, list / scales, chosen) : read_rows(result, scene, plan, list / scales, chosen);
     for (std::size_t i = 0; i < grips.size(); ++i) {
       grips[i].candidate = chosen[i];
       grips[i].score = none_holds(ranking, list) ? 0 : chosen[i].score;

@@ -47,7 +47,12 @@ TEST_F(CommandRank, WithoutOptionsItIsTheSweepsOwnListByteForByte) {
 }
 
 TEST_F(CommandRank, ASweepListsByAKeyWhatRankListsOfItsResult) {
-  const std::string sweep = "PROGRAM sweep " + (folder / "small.toml") + " --on core --best 4 --glb 1 -o " + (folder / "b.nc");
+  const std::string scene = folder / "pushed.toml";
+  write_file(scene, file_text(folder / "small.toml"));
+  expect_error("sweep " + scene + " --on core -o " + (folder / "b.nc") + " --rank-by push", 2,
+               "add it to [output] also, or to its keep");
+  write_file(scene, edited(file_text(scene), "best = 5", "best = 5\nalso = [\"push\"]"));
+  const std::string sweep = "PROGRAM sweep " + scene + " --on core --best 4 --glb 1 -o " + (folder / "b.nc");
   std::set<std::string> lists;
   for (const std::string by : {"score", "robust", "worst_effort", "push"}) {
     const Outcome swept = run(sweep + " --rank-by " + by + " 2>&1");

@@ -421,6 +421,7 @@ TEST(RobustSweep, IsTheSameOnADeviceOnTheCoreAndInRank) {
   text.replace(text.find("[robust]\n"), std::string("[robust]\n").size(), "[robust]\ncount = 16\n");
   Scene scene = parse_scene(text, "robust.toml");
   scene.vessels.resize(1);
+  scene.output.also = {"push"};
   std::vector<std::vector<std::uint64_t>> lists;
   for (const char* on : {"core", "vulkan"}) {
     SweepOptions options;
