@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a hand in a session is told: how it would hold the vessel from where it is, and which grip within its reach would be better.
+// Advice to a hand in a session: how it would hold the vessel from where it is, and which grip within its reach would be better.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace wholehand {
 
 // A grip of a vessel with its present liquid, over all tilts until it is poured. By the core in double precision, whatever
-// looked for it.
+// found it.
 struct RatedGrip {
   GripInput grip;            // vessel frame, in the world of the scene
   bool is_possible = false;  // feasible, and plausible where it is advised; else what follows has no meaning

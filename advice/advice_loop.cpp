@@ -54,7 +54,7 @@ struct AdviceLoop::Shared {
 
 namespace {
 
-// Its own, and that of the threads that it starts: those of the device, too.
+// Lowers the priority of this thread and of the threads that it starts, those of the device too.
 void take_back_seat() {
   // a thread's id is what Linux takes here; where it may not be lowered the advice goes on as it is
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + ADVICE_NICENESS);
@@ -83,7 +83,7 @@ void AdviceLoop::Shared::run(std::promise<void>& opened, const AdviserOpener& op
   }
 }
 
-// None where it cannot be opened: whoever waits for it is told why.
+// None where it cannot be opened; `opened` then carries the reason.
 std::unique_ptr<Adviser> AdviceLoop::Shared::open_adviser(std::promise<void>& opened, const AdviserOpener& open) {
   try {
     std::unique_ptr<Adviser> adviser = open(live.scene);

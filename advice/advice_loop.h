@@ -20,14 +20,14 @@ constexpr double LEAST_ADVICE_RATE = 5;  // Hz: clouds become smaller where an u
 constexpr double ANSWER_PATIENCE = 1;    // s: an update that takes longer is late, and the advice before it too old
 constexpr int ADVICE_NICENESS = 10;      // of its threads beside those of the loop
 
-// What a session's report says of its advice.
+// The advice in a session's report.
 struct AdviceTally {
   std::string place;            // what it is computed on
   std::uint64_t updates = 0;    // with a vessel near
   std::uint64_t grips = 0;      // asked for in them
   double longest = 0;           // s between two such updates that follow one another
   double seconds = 0;           // s of such updates, from one to the next
-  std::uint64_t intervals = 0;  // so many times from one to the next
+  std::uint64_t intervals = 0;  // number of times from one to the next
 
   double rate() const { return seconds > 0 ? static_cast<double>(intervals) / seconds : 0; }  // updates a second
 };

@@ -70,7 +70,7 @@ Reach reach_of(const VesselData& vessel, const GripInput& present, bool keeps_li
 
 GripInput come_in(const GripInput& present) {
   GripInput grip = present;
-  // a line that passes far beside the axis is not of a grip that is meant
+  // a line that passes far beside the axis is no intended grip
   if (std::abs(grip.offset) > MOST_OFFSET) grip.offset = 0;
   return grip;
 }

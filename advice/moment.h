@@ -11,9 +11,8 @@
 
 namespace wholehand {
 
-// About the moment of a tick, `poses` being where the vessels are then. Where no vessel is near, nothing is asked for. What a
-// held grip takes at tilts ahead is of the posture that the session keeps. `keeps_line` as in an AdviceQuestion. Throws as
-// Adviser::advise.
+// Advice at the moment of a tick, with the vessels at `poses`. Asks for nothing where no vessel is near. The efforts of a held grip at
+// tilts ahead are those of the posture that the session keeps. `keeps_line` as in an AdviceQuestion. Throws as Adviser::advise.
 Advice advice_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses, Adviser& adviser, std::size_t grips,
                  bool keeps_line = false, const std::atomic<bool>* stop = nullptr);
 

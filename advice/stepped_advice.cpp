@@ -41,7 +41,7 @@ void SteppedAdvice::look(const Tick& tick) noexcept {
   }
 }
 
-// What was asked for at the moment before is there now.
+// The answer to the question of the last moment is there now.
 void SteppedAdvice::ask(const Tick& tick) {
   auto found = std::make_shared<const Advice>(
       is_held(tick.state) && !options_.while_held

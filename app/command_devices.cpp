@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand devices: what there is to compute on, and to feel with.
+// wholehand devices: lists the devices to compute on and the grippers to feel with.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>

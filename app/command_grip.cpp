@@ -99,7 +99,7 @@ StateAxes read_states(const GripArguments& arguments, const Scene& scene, std::s
   return axes;
 }
 
-// What can be refused before any work.
+// Refuses what it can before any work.
 void check_drawing_files(const GripArguments& arguments, const Scene& scene) {
   const auto check = [&scene](const std::string& path, const char* option, std::string_view mark, const char* what) {
     if (path.empty()) return;

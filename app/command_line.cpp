@@ -41,7 +41,7 @@ int report(const Program& program, ExitCode code, const std::string& line) {
   return to_int(code);
 }
 
-// What is not known among the arguments, with what was meant perhaps; "" where the parser's own words say it all.
+// Names the unknown argument and what the user may have meant; "" where the parser's own words say it all.
 std::string unexpected_argument(const CLI::App& command, const CLI::ParseError& error) {
   for (const std::string& extra : command.remaining()) {
     if (extra[0] != '-') continue;

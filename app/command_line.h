@@ -14,7 +14,7 @@ struct Program {
   std::string version_note;  // after name and version
   std::function<void(CLI::App& app, Action& action)> add_commands;
   bool is_silent = false;  // says nothing of --help and of what goes wrong: another process does
-  std::function<void(ExitCode code, const std::string& line)> on_failure;  // told of what goes wrong, too; may be empty
+  std::function<void(ExitCode code, const std::string& line)> on_failure;  // also receives failures; may be empty
 };
 
 // Answers the exit code. Whoever links it has the last line of a failure (program/failure_line.h) from the start of the process.

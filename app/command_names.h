@@ -14,7 +14,7 @@ namespace wholehand {
 // "a, b or c" of the commands of `app`, in the order of --help; `last`: the word before the last one.
 std::string command_list(const CLI::App& app, const char* last);
 
-// What is told of a command that `app` does not have.
+// The error message for a command that `app` does not have.
 std::string unknown_command(const CLI::App& app, const std::string& name);
 
 // The innermost command that the arguments named; `app` itself before one is known.

@@ -33,7 +33,7 @@ std::string option_of(const std::string& key) {
   return option;
 }
 
-// A number in the unit of its option, as it stands in the text.
+// A number in the unit of its option, as the text has it.
 double checked(const std::string& text, const std::string& option, const Quantity& range) {
   parse_quantity(text, option, range);
   return std::stod(text);

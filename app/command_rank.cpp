@@ -67,7 +67,7 @@ struct JointList {
   std::vector<MergedGrip> grips{};
 };
 
-// What can be refused before any work.
+// Refuses what it can before any work.
 void check_list_file(const RankArguments& arguments, const std::string& of_result, const Scene& scene) {
   const std::string& path = arguments.output;
   if (path.empty()) return;
@@ -146,7 +146,7 @@ std::vector<JointList> joint_lists(const RankedResults& results, const RankReque
   return lists;
 }
 
-// What there is to say of a list of which no grip holds.
+// The note for a list of which no grip holds.
 std::string unheld_text(const RankedResults& results, const JointList& list) {
   const auto& [r, place] = list.parts.front();
   const std::string& line = results[r]->unheld[place];

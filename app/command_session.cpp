@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand session: what a recording says about the one who gripped, and what recordings of several people say together.
+// wholehand session: statistics of a recording, and of recordings of several people together.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>

@@ -30,7 +30,7 @@ struct TrialsArguments {
   bool quick = false, resume = false;
 };
 
-// One of two words; `first` where nothing is said.
+// One of two words; `first` where the text is empty.
 bool is_second(const std::string& text, const char* option, const char* first, const char* second) {
   if (text.empty() || text == first) return false;
   if (text == second) return true;

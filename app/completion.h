@@ -7,7 +7,7 @@
 
 namespace wholehand {
 
-// What may stand as the value of an option, or as an argument.
+// The possible values of an option or argument.
 struct CompletedValue {
   std::vector<std::string> words;
   std::vector<std::string> before_files;  // of the words, those that end in ':' and go on with a file: "replay:"

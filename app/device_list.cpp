@@ -44,7 +44,7 @@ void print_vulkan_devices() {
 void print_devices() {
   try {
     print_vulkan_devices();
-  } catch (const Error& error) {  // its further remedy, the core, stands in the next line
+  } catch (const Error& error) {  // its other remedy, the core, is the next line
     print_no_vulkan(error.what());
   }
   print("core  the reference, double precision, all threads  <- --on core\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What there is to compute on and to feel with, as lines that say how to ask for it.
+// The devices and grippers of this machine, as lines that say how to ask for them.
 #pragma once
 
 #include <string>

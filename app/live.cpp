@@ -58,8 +58,8 @@ namespace {
 
 constexpr double RING_TIME = 4;  // s of ticks that wait for a disk that pauses
 constexpr std::size_t LEAST_RING = 4096;
-constexpr auto LOOK = std::chrono::milliseconds(50);  // between two looks at what has happened
-// of the recorder into the ring where what happens is displayed: a moment a look
+constexpr auto LOOK = std::chrono::milliseconds(50);  // between two checks for events
+// between two looks of the recorder into the ring where a display shows the session
 constexpr std::chrono::microseconds SHOWN_LOOK{static_cast<std::int64_t>(1e6 / DISPLAY_RATE)};
 constexpr int LOST_LOOKS = 3;  // in a row that find a call lost: after a stop of the process it may return yet
 constexpr const char* REPLAY = "replay:";
@@ -108,7 +108,7 @@ Percentiles percentiles_of(const Histogram& times) {
   return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.largest()};
 }
 
-// What the page of the view is told.
+// How the session ended, for the page of the view.
 const char* end_name(Fault fault) { return fault == Fault::none ? "done" : FAULT_NAMES[static_cast<std::size_t>(fault)]; }
 
 // `stiffness`: N/m of the hand's gap.
@@ -163,7 +163,7 @@ class LiveRun {
     const PanicGuard panic(*gripper_, watch_.get());
     interrupt.on_another(end_by_signal);  // at once, and not before the force is gone
     Board board(scene_);
-    open_view();  // first: whose port is taken leaves no recording behind
+    open_view();  // first: a taken port leaves no recording behind
     std::unique_ptr<RecordingWriter> writer;
     if (!options_.record.empty())
       writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_), RECORD);
@@ -213,7 +213,7 @@ class LiveRun {
     advice_ = std::make_unique<LiveAdvice>(scene_, LiveAdvice::Options{on, !options_.no_clock, options_.follow_advice});
   }
 
-  // What it computes on, once nothing is refused any more.
+  // Prints where the advice is computed, once nothing can be refused any more.
   void tell_advice_place() const {
     if (advice_) say_note("live: advice is computed on " + advice_->tally().place);
   }
@@ -278,7 +278,7 @@ class LiveRun {
     }
   }
 
-  // Where vessels stand in each other only because they have no places, which shipped scenes have places.
+  // Where vessels overlap only because they have no places: names the shipped scenes that have places.
   void check_places() const {
     try {
       const LiveScene placed(scene_);
@@ -374,7 +374,7 @@ class LiveRun {
       lost = watch_ && watch_->lasted() > CALL_LOST ? lost + 1 : 0;
       if (lost == LOST_LOOKS) give_up(interrupt, recorder, board);
       board.show(options_.json);
-      // nobody follows any more; without a clock there is nothing to follow, and the recording is what is wanted
+      // no reader is left; without a clock there is nothing to follow, and only the recording matters
       if (is_output_abandoned() && !options_.no_clock && !interrupt.flag()) {
         note("nobody reads the output any more, so the session ends");
         interrupt.flag() = true;
@@ -395,8 +395,8 @@ class LiveRun {
     if (watch_) watch_->leave();
   }
 
-  // The haptic thread is lost in a call of the device, and nothing that waits for it would end either: all is told, the recording
-  // is finished, and the process ends without taking anything apart.
+  // The haptic thread is lost in a call of the device, and whatever waits for it would never end: reports all, finishes the recording
+  // and ends the process without destructors.
   [[noreturn]] void give_up(InterruptGuard& interrupt, Recorder& recorder, Board& board) {
     interrupt.flag() = true;  // should the call return
     const std::optional<LoopReport> ending = loop_->ending();
@@ -426,7 +426,7 @@ class LiveRun {
     _exit(static_cast<int>(ExitCode::failure));
   }
 
-  // The second thread is lost in a call of the device: all is told, and taking the session apart would wait for it without end.
+  // The second thread is lost in a call of the device, and destructors would wait for it without end: reports all and ends the process.
   [[noreturn]] void leave_watch(const LoopReport& report) {
     say_note(fault_words(report));
     say_note(

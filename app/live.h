@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A live session from its command line: gripper, loop, recording, and what is told meanwhile.
+// A live session from its command line: gripper, loop, recording and messages.
 #pragma once
 
 #include <cstdint>

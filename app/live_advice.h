@@ -14,7 +14,7 @@
 
 namespace wholehand {
 
-// The device that a user means who names none: "vulkan" where there is a Vulkan device, else "core".
+// The default device: "vulkan" where there is a Vulkan device, else "core".
 std::string default_advice_device();
 
 // A line for each thing that begins: a vessel that the hand comes near to, a grasp. It comes once there are words.

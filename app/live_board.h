@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a live session has to say while it runs, from the recorder's thread to the main one.
+// Messages of a running live session, from the recorder's thread to the main one.
 #pragma once
 
 #include <cstdint>

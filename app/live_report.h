@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a live session tells: events while it runs, numbers when it is over.
+// The report of a live session: events while it runs, numbers when it is over.
 #pragma once
 
 #include <optional>

@@ -12,8 +12,8 @@ namespace wholehand {
 // Whether the file is NetCDF-4, as results are; neither scenes nor recordings are.
 bool is_result(const std::string& path);
 
-// With its meshes, which are looked for beside the result, then from where the scene lay; why they are no longer those of the sweep goes to `trouble`, "" where they are. Throws Error (usage) where
-// the text is no scene.
+// The result's scene with its meshes, searched for beside the result, then from where the scene lay. `trouble`: why they are no longer
+// those of the sweep, "" where they are. Throws Error (usage) where the text is no scene.
 Scene scene_of_result(const SweepResult& result, std::string& trouble);
 
 // The same for what cannot do without the meshes: throws Error (usage) with the trouble.

@@ -62,7 +62,7 @@ void open_chart(MarkupWriter& svg, const ChartName& name, double height);
 void put_text(MarkupWriter& svg, double x, double y, const std::string& text, const char* style);
 void put_line(MarkupWriter& svg, double x1, double y1, double x2, double y2, const char* style);
 void put_frame(MarkupWriter& svg, const PlotArea& area);
-// Labels of an axis stand beside and above it; an empty one is left out. The numbers are powers where the axis is logarithmic.
+// Labels of an axis are beside and above it; an empty one is left out. The numbers are powers where the axis is logarithmic.
 void put_x_axis(MarkupWriter& svg, const PlotArea& area, const std::vector<double>& ticks, const std::string& label);
 void put_y_axis(MarkupWriter& svg, const PlotArea& area, const std::vector<double>& ticks, const std::string& label, bool has_grid);
 

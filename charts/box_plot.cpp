@@ -210,7 +210,7 @@ Box box_of(std::span<const double> values) {
 
 void write_chart(MarkupWriter& svg, const BoxChart& chart) {
   const PlotArea area = area_of(chart);
-  MarkupWriter under;  // what stands under the axes decides how high the chart is
+  MarkupWriter under;  // the text under the axes decides how high the chart is
   const double foot = put_key(under, area, chart, put_labels(under, area, chart));
   open_chart(svg, spoken_name(chart), foot + 4);
   put_y_axis(svg, area, round_ticks(area.y_low, area.y_high, 5), "", true);

@@ -24,14 +24,13 @@ struct Box {
   std::size_t outliers_beside = 0;  // those that are left out of `outliers`
 };
 
-// Of values in any order; those that are not finite do not count. The quartiles are by percentile_of (statistics/interval.h). A
-// whisker ends at the furthest value within 1.5 interquartile ranges of its quartile, or at the quartile where there is none beyond
-// it.
+// Values come in any order; those that are not finite do not count. Quartiles are by percentile_of (statistics/interval.h). A whisker
+// ends at the furthest value within 1.5 interquartile ranges of its quartile, or at the quartile where no value lies beyond it.
 Box box_of(std::span<const double> values);
 
 // Groups side by side. The page needs BOX_RULES (charts/style.h).
 struct BoxChart {
-  ChartName name;       // to its description the numbers of each group are added, for who does not see them
+  ChartName name;       // its description gets the numbers of each group, for those who do not see them
   std::string y_label;  // with its unit
   std::string mark;     // what a mark means: "paper: mean and SD". Not drawn where no group has one
   struct Mark {

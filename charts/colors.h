@@ -9,7 +9,7 @@ namespace wholehand {
 
 using Rgb = std::array<int, 3>;  // sRGB, 0..255
 
-// Okabe and Ito's colours, which colour-blind readers tell apart and which differ in lightness too.
+// Okabe and Ito's colours, which colour-blind readers distinguish and which differ in lightness too.
 namespace okabe_ito {
 inline constexpr Rgb BLACK{0x00, 0x00, 0x00}, ORANGE{0xe6, 0x9f, 0x00}, SKY_BLUE{0x56, 0xb4, 0xe9}, GREEN{0x00, 0x9e, 0x73},
     BLUE{0x00, 0x72, 0xb2}, VERMILION{0xd5, 0x5e, 0x00};

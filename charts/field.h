@@ -14,7 +14,7 @@ struct ColorScale {
   std::string label;         // with its unit
   double low = 0, high = 1;  // of the first and the last colour
   int digits = 2;            // of the numbers at its ends
-  int steps = 0;             // > 0: so many whole numbers from `low` on, each with a colour of its own
+  int steps = 0;             // > 0: the number of integers from `low` on, each with its own colour
 };
 
 enum class CellKind : unsigned char { absent, hollow, filled };

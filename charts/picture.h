@@ -13,7 +13,7 @@ struct PictureFrame {
   std::string title;        // is drawn, and what a screen reader says first
   std::string description;  // what a screen reader says then
   double width = 0;         // units
-  double height = 0;        // units, of what stands under the title
+  double height = 0;        // units, of what is under the title
   double scale = 1;         // pixels of a unit
 };
 

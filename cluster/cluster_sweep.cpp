@@ -164,7 +164,7 @@ void agree(Team& team, const std::optional<Error>& own) {
   share_error(team, first);
 }
 
-// What goes wrong on one rank alone, where no other knows of it, ends all: they would wait for it for ever.
+// A failure on one rank that no other knows of ends all ranks: they would wait for it for ever.
 ExitCode or_abort(Team& team, const std::function<ExitCode()>& work) {
   try {
     return work();
@@ -228,7 +228,7 @@ class ClusterSweep final : public Sweep {
       const FileStart start = is_resumed ? FileStart::resumed : options_.shards ? FileStart::sparse : FileStart::reserved;
       file = std::make_unique<ResultFile>(names_, written, backend_->fields(), start, parts_.open_output);
       begin_shards(*file);
-      // from now on whoever finds shards of this sweep finds its mark, too
+      // from now on, shards of this sweep come with its mark
       if (options_.shards && !is_resumed) save(*file);
     });
     is_marked_ = share_flag(is_resumed);
@@ -499,7 +499,7 @@ class ClusterSweep final : public Sweep {
                          counted(grips, "grip")));
   }
 
-  // Of the leader's mark: the stretches that are nowhere, by the rank that computes them again, in its order. The mark says so from now on.
+  // The stretches of the leader's mark that no shard has, by the rank that computes them again, in its order. Marks them as lost.
   std::vector<std::vector<Stretch*>> lost_stretches() {
     std::vector<std::vector<Stretch*>> lost(static_cast<std::size_t>(team_.size()));
     Turns turns(groups_, team_.size());
@@ -623,7 +623,7 @@ class ClusterSweep final : public Sweep {
     return is_whole;
   }
 
-  // Each rank has computed so many more of its lost stretches again: they lie in its file now. Answers the leader whether there are any.
+  // Each rank has restored `restored` more of its lost stretches: its file has them now. Tells the leader whether there are any.
   bool move_stretches(std::vector<std::vector<Stretch*>>& lost, std::uint64_t restored) {
     std::vector<std::uint64_t> counts{restored};
     PacketWriter packet;
@@ -878,7 +878,7 @@ class ClusterSweep final : public Sweep {
     figures_[0] = own_;
   }
 
-  // What follows without a gap on what is done joins it. What comes after a gap waits: a mark knows only grips without gaps.
+  // Pieces that follow the done grips without a gap join them. Pieces after a gap wait: a mark knows only grips without gaps.
   void advance(std::size_t vessel) {
     VesselProgress& progress = mark_.vessels[vessel];
     auto& pending = pending_[vessel];
@@ -1122,7 +1122,7 @@ class ClusterSweep final : public Sweep {
     return result.done;
   }
 
-  // ---- what is told of the best ----
+  // ---- figures of the best ----
 
   struct CompletedGrip {
     std::uint64_t list = 0;

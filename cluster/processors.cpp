@@ -11,7 +11,7 @@ std::vector<int> deal_processors(const std::vector<std::vector<bool>>& allowed) 
   for (std::size_t rank = 0; rank < allowed.size(); ++rank)
     for (std::size_t p = 0; p < ranks_of.size(); ++p)
       if (allowed[rank][p]) ranks_of[p].push_back(rank);
-  // those that few may use come first: then nobody takes them from who has no other
+  // processors that few ranks may use come first: then no rank loses its only one
   std::stable_sort(ranks_of.begin(), ranks_of.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
   std::vector<int> dealt(allowed.size(), 0);
   for (const std::vector<std::size_t>& ranks : ranks_of) {

@@ -55,7 +55,7 @@ int system_error(int mpi_error) {
   }
 }
 
-// Each rank opens the file for itself: then it syncs when it wants to, and waits for nobody. No two ranks write to one place.
+// Each rank opens the file for itself: then it syncs when it wants to, and waits for no other. No two ranks write to one place.
 class MpiFile final : public OutputBytes {
  public:
   explicit MpiFile(const std::string& path) {
@@ -95,7 +95,7 @@ class MpiFile final : public OutputBytes {
   MPI_File file_ = MPI_FILE_NULL;
 };
 
-// Of all ranks of a node, each asks: how many processors are mine?
+// How many of the node's processors this rank may use. Collective over the ranks of the node.
 int share_processors(MPI_Comm local, int rank, int size) {
   std::vector<cpu_set_t> sets(static_cast<std::size_t>(size));
   cpu_set_t& own = sets[static_cast<std::size_t>(rank)];
@@ -267,7 +267,7 @@ void Team::restart_counter() {
 void Team::ask(std::uint64_t amount) {
   mpi_->amount = amount;
   mpi_->is_asked = true;
-  // what MPI_Fetch_and_op does, with a request to look at
+  // as MPI_Fetch_and_op, with a request to test
   MPI_Rget_accumulate(&mpi_->amount, 1, MPI_UINT64_T, &mpi_->first, 1, MPI_UINT64_T, 0, 0, 1, MPI_UINT64_T, MPI_SUM, mpi_->window,
                       &mpi_->question);
 }

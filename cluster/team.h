@@ -37,14 +37,14 @@ class Team {
   bool receive(std::string& message, int& from);
   // Waits for the next message of one rank.
   std::string wait_for(int from);
-  // A message of every rank but rank 0, which looks at them in the order of the ranks.
+  // A message of every rank but rank 0, which reads them in the order of the ranks.
   void gather(const std::string& message, const std::function<void(int rank, const std::string& message)>& look);
   // What rank 0 gives, for all: every rank calls it, and waits without using its processor.
   std::string share(const std::string& from_leader);
   // Returns when every rank has called it.
   void meet();
-  // Who waits sleeps for a moment and looks again, and leaves its processor to who works: MPI's own waiting would not. The longer it has
-  // waited (s), the longer the moment; answers its length.
+  // Sleeps for a moment between two polls, which leaves the processor to working ranks: MPI's own waiting would not. The longer the wait so
+  // far (s), the longer the moment; returns its length.
   static double nap(double waited = 0);
 
   // Whether all ranks know that they end with an error.

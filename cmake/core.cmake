@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The library `core`. Files in namespace CORE_NS are compiled once for each precision, the plain-double rest once.
 
-# The reference is what the compiler is told to compute: no contraction, no re-association. -O3 even where the build's own flags say
+# The reference computes what the source says: no contraction, no re-association. -O3 even where the build's own flags say
 # less, so that sanitized runs stay short; a debug build is left alone. Nobody asks for errno or for floating-point exceptions: without
 # them a square root is one instruction, and both sides of a small branch may be computed. No number changes by this.
 function(core_options name)
@@ -42,7 +42,7 @@ function(core_precision name real)
   if(real STREQUAL "long double")
     target_compile_options(${name} PRIVATE -Wno-narrowing)  # its door answers in double
   elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # a double in the float build is a mistake; clang also tells of results that are handed out as double
+    # a double in the float build is a mistake; clang also reports results that are handed out as double
     target_compile_options(${name} PRIVATE -Wdouble-promotion -Wfloat-conversion)
   endif()
 endfunction()

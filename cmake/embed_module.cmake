@@ -2,7 +2,7 @@
 # cmake -DMODULE=FILE.spv -DNAME=NAME -DOUTPUT=FILE.h -DPASSES=... -DSPIRV_OPT=... -DSPIRV_DIS=... -P embed_module.cmake
 # writes the optimized module as a C array of its words. Needs od, sed and awk beside the two programs.
 
-# Sets `result` to how many instructions with NoContraction (`precise`) stand in loops that ask to be unrolled.
+# Sets `result` to the number of instructions with NoContraction (`precise`) in loops that ask to be unrolled.
 function(count_precise_in_loops module result)
   execute_process(COMMAND "${SPIRV_DIS}" --raw-id --no-header "${module}" COMMAND awk [[
       $1 == "OpDecorate" && $3 == "NoContraction" { precise[$2] = 1 }

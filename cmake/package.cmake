@@ -19,7 +19,7 @@ set(CPACK_COMPONENTS_ALL "")
 set(same_version "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
 # ---- what every package has under share/doc ----
-# The day of a release stands in CHANGELOG.md; before it, today counts (SOURCE_DATE_EPOCH where that is set).
+# The day of a release is in CHANGELOG.md; before it, today counts (SOURCE_DATE_EPOCH where that is set).
 string(TIMESTAMP WHOLEHAND_PACKAGE_DATE "%a, %d %b %Y 00:00:00 +0000" UTC)
 configure_file(cmake/package/changelog.in "${packaging_dir}/changelog" @ONLY)
 foreach(pair "changelog|changelog.Debian" "${PROJECT_SOURCE_DIR}/CHANGELOG.md|changelog")

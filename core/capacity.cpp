@@ -57,7 +57,7 @@ std::optional<Narrow> narrow_place(const VesselData& vessel, double limit) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& [radius, height] = points[i];
     const bool is_narrow = radius < limit && std::min(beneath, above[i + 1]) > radius + WIDER;
-    // of a stem as narrow all along its upper end
+    // a stem that is equally narrow all along counts at its upper end
     if (is_narrow && (!narrow || radius <= narrow->radius + SAME)) narrow = Narrow{height, radius, 0};
     beneath = std::max(beneath, radius);
   }

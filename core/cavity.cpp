@@ -52,7 +52,7 @@ std::optional<double> curve_radius(const PreparedElement& element, int kind, dou
 }
 
 // First blocked radius at y; nothing where no element reaches that height. Curves that touch (an offset and the circle it runs into)
-// are told apart only beyond rounding, the offset first, so that no sliver of the other appears at their joint.
+// count as different only beyond rounding, the offset first, so that no sliver of the other appears at their joint.
 constexpr double SAME_RADIUS = 1e-13;  // m
 
 // Elements whose curves may be met at heights from low to high: none is further than the wall from its element.
@@ -131,7 +131,7 @@ double settle(const PreparedElement& piece, double y) {
   return piece.center[0] + piece.side * std::sqrt(std::max(0.0, (piece.radius - rise) * (piece.radius + rise)));
 }
 
-// To the nearest of the elements named.
+// Distance to the nearest of the named elements.
 double distance_to(const std::vector<PreparedElement>& open, const std::vector<std::size_t>& near, double r, double y) {
   double best = 1e300;
   for (const std::size_t k : near) {

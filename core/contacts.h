@@ -23,9 +23,9 @@ struct PressingJoint {
 // solid vessel presses on nothing. Returns how many there are.
 int find_contacts(const Vessel& vessel, const std::array<Vec3, JOINTS>& posed, std::uint32_t touch_mask,
                   std::array<PressingJoint, JOINTS>& pressing);
-// The same, and after them the spheres between the joints that touch. Of the phalanges of a digit as many press as it has joints that do not
-// touch, from the palm outwards; of a metacarpal bone one, where its base does not touch, as a part of the palm. So no hand has more contacts
-// than joints, and what is left out can only make an effort larger. `scale`: of the placed hand.
+// The same, and after them the touching spheres between the joints. A digit presses with as many spheres of its phalanges as it has joints
+// that do not touch, from the palm outwards; a metacarpal bone with one, where its base does not touch, as a part of the palm. So no hand
+// has more contacts than joints, and what is left out can only make an effort larger. `scale`: of the placed hand.
 int find_contacts(const Hand& hand, const Vessel& vessel, const std::array<Vec3, JOINTS>& posed, Real scale,
                   std::uint32_t touch_mask, std::array<PressingJoint, JOINTS>& pressing);
 // The scale at which a hand is placed, from where it is: no pose moves a metacarpal bone.

@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// What the core says of itself on so many threads.
+// The core's description of itself on `threads` threads.
 BackendInfo core_info(Precision precision, int threads);
 
 // Chunks are handed out to threads in ascending order and delivered in that order on the thread that called run, so nothing depends

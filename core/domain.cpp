@@ -55,7 +55,7 @@ std::pair<const VesselData*, double> lightest(const Scene& scene) {
   return light;
 }
 
-// What holds a vessel at its heaviest, with the longest lever about a line within its height, N; 0 where no force does.
+// The force that holds a vessel at its heaviest, with the longest lever about a line within its height, N; 0 where no force does.
 double largest_hold(const Scene& scene, const VesselData& data) {
   const ForceData& force = scene.force;
   if (scene.tilts.empty() || !(force.friction > 0)) return 0;

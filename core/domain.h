@@ -11,9 +11,9 @@
 namespace wholehand {
 
 // Measured (docs/evidence.md, "Where float is enough"; tests/core/domain_test.cpp measures at the limits again): core in float against core in
-// double, 3,000 random grips each of a cylinder, a flask and a conical flask, sizes 1 mm to 10 m, tilts 0 to 180 degrees. Of grips that do
-// not graze and whose discrete outcomes are the same, separations differ by at most FLOAT_LENGTH in 999 of 1,000, joints in 99 of 100,
-// forces by at most FLOAT_FORCE in 999 of 1,000; and outcomes differ in about 1 of 1,000 at most.
+// double, 3,000 random grips each of a cylinder, a flask and a conical flask, sizes 1 mm to 10 m, tilts 0 to 180 degrees. Where grips do
+// not graze and have the same discrete outcomes, separations differ by at most FLOAT_LENGTH in 999 of 1,000, joints in 99 of 100,
+// forces by at most FLOAT_FORCE in 999 of 1,000. Outcomes differ in about 1 of 1,000 at most.
 namespace float_domain {
 
 constexpr double FLOAT_LENGTH = 10e-6;  // m
@@ -31,22 +31,22 @@ constexpr double LARGEST_COORDINATE = 10;
 // N, of the forces that hold a vessel, (m g lever / (2 gamma) + m g / 2) / mu. They differ by up to 1.8e-6 of that (20 mN at 11 kN).
 constexpr double LARGEST_HOLD = 5e3;
 
-// Of the strength of the strongest digit to that of the weakest. Efforts are solved in the unit of the strongest, and the weakest then
-// is near the rounding: of 400 random scenes those where efforts differ by more than their tolerance have ratios of 35 and more.
+// Strength of the strongest digit over that of the weakest. Efforts are solved in the unit of the strongest, and the weakest then
+// is near the rounding: in 400 random scenes, efforts differ by more than their tolerance only at ratios of 35 and more.
 constexpr double LARGEST_STRENGTH_RATIO = 30;
 
-// Of the strength of the strongest digit to the weight of the lightest glass. A hand that squeezes that much more than it lifts finds
-// the limit of what it holds in float's last digits: `push` may be 0 and `friction_needed` a percent too large. Of 500 random scenes
-// those where they differ by more than their tolerance have ratios of 5,800 and more, or one of the other limits.
+// Strength of the strongest digit over the weight of the lightest glass. A hand that squeezes that much more than it lifts finds
+// the limit of what it holds in float's last digits: `push` may be 0 and `friction_needed` a percent too large. In 500 random scenes,
+// they differ by more than their tolerance only at ratios of 5,800 and more, or beyond another limit.
 constexpr double LARGEST_STRENGTH_OF_WEIGHT = 3e3;
 
 // m, of torsion that is not 0. Moments about a line of contacts are carried by arms of this length, and places of contacts differ by
-// 1e-6 m. Of the same scenes those where efforts differ have 0.24 mm and less.
+// 1e-6 m. In the same scenes, efforts differ only at 0.24 mm and less.
 constexpr double SMALLEST_TORSION = 1e-3;
 
 }  // namespace float_domain
 
-// What of the scene is beyond the domain: a sentence for each limit, with the limit; the remedy is Remedy::double_precision.
+// A sentence for each limit of the domain that the scene exceeds, with the limit; the remedy is Remedy::double_precision.
 // Empty in double, and within. Throws Error (usage) for vessels that cannot be made ready.
 std::vector<std::string> domain_warnings(const Scene& scene, Precision precision);
 

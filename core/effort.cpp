@@ -15,10 +15,10 @@ constexpr Real NEVER = std::numeric_limits<Real>::infinity();
 constexpr Real ROUNDING = EFFORT_ROUNDING;
 constexpr Real LEAST_PIVOT =
     SINGLE ? Real(1e-4) : Real(1e-9);      // of the largest of its column; where there is none, of what its row sums
-constexpr int FRESH_PIVOTS = 50;           // after so many the inverse is made anew
+constexpr int FRESH_PIVOTS = 50;           // pivots after which the inverse is made anew
 constexpr Real LEAST_LENGTH = Real(1e-3);  // m: of a single contact, which has no extent
-// A basis costs at most so many times what an artificial column of the load's size does: the first one costs sqrt 6 times, and
-// pivots go down. What costs more is rounding, of a friction of 1e-200 for example.
+// Largest cost of a basis in units of an artificial column of the load's size: the first one costs sqrt 6 of them, and
+// pivots lower it. What costs more is rounding, of a friction of 1e-200 for example.
 constexpr Real FIRST_COST = Real(3);
 constexpr Real MOST_TOLERANCE = Real(0.1), WIDER = 4;          // of a bracket that is all that can be had, and from try to try
 constexpr Real UNBALANCED = SINGLE ? Real(1e-2) : Real(1e-9);  // of a load: forces that leave more of it are no answer
@@ -75,7 +75,7 @@ std::array<Real, 6> pressed(Vec3 arm, Vec3 normal, Real friction, Real gamma, co
 
 EffortSolver::EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center)
     : contacts_(contacts), hand_(hand), center_(center) {
-  // of the digits that press: how strong the others are changes nothing
+  // only digits that press count: the strength of the others changes nothing
   Real strongest = 0, weakest = NEVER;
   for (const ContactPoint& contact : contacts) {
     const Real strength = hand.digits[static_cast<std::size_t>(contact.digit)];
@@ -305,7 +305,7 @@ bool EffortSolver::invert() {
   return true;
 }
 
-// What the levels cost, and the share of them that no contact carries.
+// Cost of the levels, and the share of them that no contact carries.
 EffortSolver::Cost EffortSolver::cost_of(const Vec6& levels) const {
   Cost cost;
   for (std::size_t r = 0; r < 6; ++r) {
@@ -324,7 +324,7 @@ Real EffortSolver::bound(const Wrench& load) const {
   return cost.least < -rounding || cost.artificial > rounding ? NEVER : cost.real;
 }
 
-// What the last levels leave of a wrench, levels below zero being none.
+// Length of what the last levels leave of a wrench; levels below zero count as 0.
 Real EffortSolver::unbalanced(const Vec6& wanted) const {
   Vec6 rest = wanted;
   for (std::size_t r = 0; r < 6; ++r)
@@ -420,13 +420,13 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
       answer.low = std::min(answer.low, answer.effort);
       return answer;
     }
-    // What is left to artificial columns here is rounding's: without it the direction of a load that nothing resists has said so.
+    // Artificial columns carry only rounding here: the direction of a load that nothing resists would have shown it.
     is_certain = is_carried && is_dear;
   }
   answer.effort = NEVER;
   if (is_beyond) return answer;
   has_basis_ = false;
-  if (is_warm) {  // a basis of another load may end in a corner; what nothing holds is to be told from the start
+  if (is_warm) {  // a basis of another load may end in a corner; that nothing holds must be found from the start
     const int pivots = answer.pivots;
     answer = search(load, tolerance, enough, too_much, EFFORT_PIVOTS);
     answer.pivots += pivots;
@@ -444,7 +444,7 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
   return answer;
 }
 
-// What is rounding of a product is none: beside the height of a direction that no contact opposes it would be any bound.
+// Subtracts the rounding of the product: over the tiny height of a direction that no contact opposes, it could make any bound.
 Real EffortSolver::low(const Wrench& load) const {
   const Vec6 wanted = wanted_for(load);
   const Real value = dot6(cut_, wanted) - ROUNDING * std::sqrt(dot6(cut_, cut_) * dot6(wanted, wanted));

@@ -81,10 +81,9 @@ class EffortSolver {
 
   // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. Where rounding leaves forces that do not balance the
   // load, it begins anew with the pivots that are left and four times the tolerance, until this is 0.1 or more. What the basis of
-  // another load does not tell is searched from nothing, with as many pivots again. No load, or one whose square underflows beside
-  // the square of the strongest digit: 0. Also ends, with the bracket that it
-  // then has, where effort <= enough, or low > too_much (`effort` is then infinite): whether the effort is larger than a number
-  // needs no more.
+  // another load leaves open is searched from the start, with as many pivots again. No load, or one whose square underflows beside
+  // the square of the strongest digit: 0. Also ends, with the bracket that it then has, where effort <= enough, or low > too_much
+  // (`effort` is then infinite): whether the effort is larger than a number needs no more.
   Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE, Real enough = 0,
                Real too_much = std::numeric_limits<Real>::infinity());
   // From here on `solve` asks which part of the hand's strength is left for: `alone` is carried with all of the strength, and the

@@ -397,7 +397,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
                        effort_tolerance_);
   }
 
-  // What holding takes of a plausible grip: the worst effort, and `fills`. Nothing of any other, and in a scene without efforts.
+  // The efforts of a plausible grip: the worst one, and `fills`. Nothing for any other grip, or in a scene without efforts.
   std::optional<Real> put_efforts(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
                                   std::span<FillEffort> fills) const {
     if (!has_effort_ || !wholehand::is_plausible(answer.status)) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The core behind plain doubles, so that either precision of it can be linked side by side: `core_f64` is the reference and drives
-// the product, `core_f32` tells what single precision costs.
+// the product, `core_f32` measures what single precision costs.
 #pragma once
 
 #include <cstddef>

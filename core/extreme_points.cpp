@@ -16,7 +16,7 @@ using ShareRow = std::array<double, SHARE_ROWS>;
 
 double product(const ShareRow& a, const ShareRow& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
-// Shares of so many columns that come closest to `wanted`, by orthogonal directions. Empty: the columns depend on each other.
+// Shares of the columns that come closest to `wanted`, by orthogonal directions. Empty: the columns depend on each other.
 std::vector<double> closest_shares(const std::vector<ShareRow>& columns, ShareRow wanted) {
   const std::size_t count = columns.size();
   std::vector<ShareRow> directions = columns;

@@ -9,7 +9,7 @@
 namespace wholehand {
 
 using Point5 = std::array<double, 5>;
-// More points than these are all taken for extreme: finding out takes a time that grows with their square.
+// With more points than this all count as extreme: the time of the test grows with their square.
 constexpr std::size_t MOST_EXTREME = 512;
 
 // Numbers of some of the points, ascending. Each other point is a sum of these with shares that are not negative and add up to 1 at most, but for

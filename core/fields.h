@@ -11,8 +11,8 @@
 
 namespace wholehand {
 
-// Numbers of a field: how many planes, and what they stand for. Of contacts: thumb, index; of joints: joint-major, x y z; of
-// states: fill-major.
+// Numbers of a field: how many planes, and what they stand for. Order: contacts thumb, index; joints joint-major, x y z; states
+// fill-major.
 enum class FieldShape { one, contacts, vector, terms, joints, joint_vectors, fills, states };
 
 // Where a field has no value (NaN). The score and its terms are 0 there.

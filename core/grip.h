@@ -33,7 +33,8 @@ struct GripAnswer {
   int advance_steps = 0;  // of the longest stage of a finger (pose articulated)
 };
 
-// Kernels 5, 4 and, of a hand with spheres between its joints or on a table, 8, and with an arm 11 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
+// Kernels 5, 4 and, with spheres between joints or a table, 8, and with an arm 11, for a closed hand. `closing`: where the hand is, without
+// a reason against it. Allocates nothing.
 void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
                GripAnswer& answer);
 // How deep the phalanges of two digits lie in each other, m: the largest overlap of any two bones, less than 0 where all are apart. `scale`: of

@@ -10,9 +10,9 @@ namespace CORE_NS {
 namespace {
 
 constexpr Real UNHELD = std::numeric_limits<Real>::infinity();
-constexpr Real RISE_TOLERANCE = Real(0.05);  // of an effort that only tells where to look next
+constexpr Real RISE_TOLERANCE = Real(0.05);  // of an effort that only directs the search
 constexpr int RISE_STEPS = 6;
-// Of a state that takes all of the strength and no more: both ends of its bracket are sums of such numbers.
+// Largest computed effort of a state that takes exactly all of the strength: both ends of its bracket are rounded sums.
 constexpr Real JUST_HELD = 1 + EFFORT_ROUNDING;
 
 struct Worst {
@@ -20,8 +20,8 @@ struct Worst {
   std::size_t fill = 0, tilt = 0;
 };
 
-// Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may tell without a pivot. Rounding
-// must not decide: forces of an effort of 1 that come out a little larger hold, and a direction whose bound comes out a little larger
+// Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may decide without a pivot. Rounding
+// must not decide: forces of an effort of 1 that are computed a little larger hold, and a direction whose bound is computed a little larger
 // does not say that nothing does.
 bool is_held(EffortSolver& solver, const Wrench& load, Real tolerance, int& pivots) {
   if (solver.bound(load) <= JUST_HELD) return true;
@@ -35,7 +35,7 @@ bool is_held(EffortSolver& solver, const Wrench& load, Real tolerance, int& pivo
 // others from below, (-w).u / h(u): the search goes where this bound is largest, not yet exactly, and solves exactly where it
 // stays. Each other state is then compared with that effort alone: mostly the last basis holds it with less, or does after a pivot
 // or two.
-// The tolerance has two halves: an effort is within one of its state's, and a state is passed by within the other of the worst.
+// The tolerance has two halves: an effort is within one of its state's, and a state is skipped within the other of the worst.
 void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first, std::size_t last, Real tolerance, Worst& worst,
                 GripEffort& grip) {
   const Real half = tolerance / 2, margin = 1 + half;

@@ -72,8 +72,8 @@ HandSize surveyed_size(Sex sex, double percentile) {
   return {percentile_of(survey.length, percentile), percentile_of(survey.breadth, percentile)};
 }
 
-// Of a half of women and a half of men, a covariance is the mean of the two sexes' own and a quarter of the product of what the
-// sexes' means differ by.
+// In a population of half women and half men, a covariance is the mean of the sexes' covariances plus a quarter of the product of the
+// differences of their means.
 double expected_breadth(double length) {
   const auto within = [](const HandSurvey& s) { return s.correlation * s.length.deviation * s.breadth.deviation; };
   const double apart = MEN.length.mean - WOMEN.length.mean;

@@ -15,7 +15,7 @@ struct HandSize {
 
 HandSize size_of(const HandData& hand);
 
-// The radii of the tips of thumb and index finger together, at scale 1, m: by so much what they hold is thinner than their gap.
+// Sum of the radii of the tips of thumb and index finger at scale 1, m: a held object is thinner than their gap by this.
 double tip_radii(const HandData& hand);
 
 // The hand of `person = "paper"`, scale and limits the default's: as long as the mean adult's, but narrower than 99 of 100

@@ -23,8 +23,8 @@ struct Slices {
   Real volume = 0, lean = 0, height = 0, surface = 0;
 };
 
-// Liquid at rest: m3 and its centre of mass along n and y, m; of its surface, the plane u . p = level (u: up, in the vessel frame), m, where
-// there is any; for those who draw it, the shaders do not tell.
+// Liquid at rest: m3 and its centre of mass along n and y, m. Its surface, if any, is the plane u . p = level (u: up, in the vessel frame),
+// m; for drawings, absent in the shaders.
 struct LiquidState {
   Real volume = 0, lean = 0, height = 0;
   Real level = 0;

@@ -35,10 +35,10 @@ Arm load_arm(const wholehand::Scene& scene, const wholehand::VesselData& data);
 // The scene's force constants for a vessel; `reference` is filled by the caller.
 ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data);
 
-// What a hand of a scale (the scene's own included) can do whose tips of thumb and index finger are `gap` apart, m, from middle to
-// middle. No strength where the scene has none.
+// Strength of a hand of a scale (the scene's own included) with the middles of the tips of thumb and index finger `gap` apart, m. None
+// where the scene has no strength.
 HandStrength load_strength(const wholehand::Scene& scene, Real gap, Real scale);
-// The same of a hand that holds.
+// The same for a hand that holds.
 HandStrength load_strength(const wholehand::Scene& scene, const wholehand::GripResult& held);
 
 }  // namespace CORE_NS

@@ -21,7 +21,7 @@ struct Motion {
   Real speed = 0;  // m/s
 };
 
-// What a time under a constant force does to a motion, exactly: a matrix and a column.
+// The exact motion over a time under a constant force: a matrix and a column.
 struct Propagator {
   Real place_place = 1, place_speed = 0, place_force = 0;
   Real speed_place = 0, speed_speed = 1, speed_force = 0;

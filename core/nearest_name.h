@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What somebody who mistyped a name may have meant.
+// The name that a mistyped one may have meant.
 #pragma once
 
 #include <span>

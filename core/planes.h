@@ -14,7 +14,7 @@
 
 namespace wholehand {
 
-// Number of planes of a field (FIELD_* of layout.h) in a scene with so many fills and tilts (fills counts 1, the empty glass, where
+// Number of planes of a field (FIELD_* of layout.h) in a scene with `fills` and `tilts` (fills counts 1, the empty glass, where
 // there is no liquid; 0 planes for the force fields where there are no tilts).
 int field_planes(int field, std::size_t fills, std::size_t tilts);
 

@@ -174,7 +174,7 @@ int gap_turns_at(const core_f64::Hand& hand) {
   return GAP_CHECKS + 1;
 }
 
-// So that closure_of_gap looks for it from this place of the trajectory on.
+// Makes closure_of_gap start its search at this place of the trajectory.
 void solve_from(core_f64::Hand& hand, double closure, double gap) {
   hand.gap_open = gap;
   hand.gap_table = {closure, 1};
@@ -182,7 +182,7 @@ void solve_from(core_f64::Hand& hand, double closure, double gap) {
 }
 
 // The closure of a gap to the last bit, by bisection: the gap is monotone. Where the solved closure is as near as it should be,
-// most halves are told by it, which changes no bit and is three times as fast.
+// it decides most halves, which changes no bit and is three times as fast.
 double bisected_closure(const core_f64::Hand& hand, double gap) {
   constexpr double SOLVED = 1e-15;  // m: some roundings of a gap
   constexpr double NEAR = 1e-13;    // of a closure

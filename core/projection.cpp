@@ -133,7 +133,7 @@ void see_place(const Hand& hand, Real separation, Real step, const FingerMotion&
   watch.until[watch.number] = motion.at + step;
 }
 
-// One turn at a time: a joint without room, or one whose bone touches as well, looks around at the same position and decides again.
+// One turn at a time: a joint without room, or one whose bone touches as well, evaluates all points at the same position and decides again.
 int decide_turn(const Hand& hand, Vec3 clear, const FingerMotion& motion, bool& blocked) {
   const int nearest = nearest_point(clear, std::max(motion.joint, 0));
   const Real least = nearest == 0 ? clear.x : nearest == 1 ? clear.y : clear.z;
@@ -143,8 +143,8 @@ int decide_turn(const Hand& hand, Vec3 clear, const FingerMotion& motion, bool& 
   return motion.at >= motion.end ? motion.joint + 1 : motion.joint;
 }
 
-// Conservative advancement: no step passes through the wall, whichever watched place is meant. One place is looked at in each turn of the
-// loop; then at most one joint turns, and the finger moves at most once.
+// Conservative advancement: no step passes through the wall, whichever watched point is meant. Each turn of the loop
+// evaluates one point; then at most one joint turns, and the finger moves at most once.
 RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& finger, Real limit) {
   const int between = hand.between;
   const int places = 3 * (between + 1);
@@ -159,7 +159,7 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     see_place(hand, separation, place_step(support, separation, place, finger.frame), motion, watch);
     resting.undecided = resting.undecided || passes_close(vessel, support, separation, place, finger.frame);
 
-    // which joint turns next: after a look around at all places, or where one that was due touches
+    // which joint turns next: after an evaluation of all points, or where one that was due touches
     const int moving = std::max(motion.joint, 0);  // first bone that moves
     int next = place_to_see(hand, watch.number + 1, motion.joint, watch.touched);
     const bool seen_all = watch.looks && next >= places;
@@ -193,7 +193,7 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
       watch.looks = false;
     }
 
-    // a new stage begins with a look around: at all places that move from now on, and at the ends of the bones that moved
+    // a new stage first evaluates all points that move from now on, and the ends of the bones that moved
     if (joint != motion.joint) {
       motion = turn_joint(hand, motion, joint);
       watch.touched = meets ? watch.number : -1;

@@ -48,16 +48,16 @@ struct Place {
   Real speed = 0, bend = 0, jerk = 0;
 };
 
-// What a finger knows of the places that it watches. They have numbers from the MCP out: the `between` spheres of a bone, and then the
-// joint that it ends at. It looks around at the places one by one where a stage begins, and then moves from one that is due to the next.
+// What a finger knows of the points that it watches, numbered from the MCP out: the `between` spheres of a bone, then the joint that it
+// ends at. At the start of a stage it evaluates the points one by one (a survey), and then moves from one that is due to the next.
 struct FingerWatch {
-  std::array<Real, 3 * (MOST_BETWEEN + 1)> until{};  // so far may this stage go before the place could touch
+  std::array<Real, 3 * (MOST_BETWEEN + 1)> until{};  // how far this stage may go before the point could touch
   Vec3 separations{};                                // of PIP, DIP and tip where they were seen last, m
   Vec3 before{};                                     // the same when it left the trajectory
-  Vec3 clear{NO_DISTANCE};                           // the least separation of a bone's places since it began to look around, m
-  int number = 0;                                    // of the place to look at now
-  int touched = -1;                                  // place that ended the stage before, and is not looked at again; -1: none
-  bool looks = true;                                 // it looks around
+  Vec3 clear{NO_DISTANCE};                           // the least separation of a bone's points since the survey began, m
+  int number = 0;                                    // of the point to evaluate now
+  int touched = -1;                                  // point that ended the stage before, and is not evaluated again; -1: none
+  bool looks = true;                                 // a survey is under way
   bool swings = true;                                // `before` is not final yet
 };
 
@@ -95,9 +95,9 @@ FingerMotion turn_joint(const Hand& hand, const FingerMotion& motion, int joint)
 int place_to_see(const Hand& hand, int number, int joint, int touched);
 // The moving place that is due first, and how far the stage may go until then; of equal ones the innermost.
 int soonest_place(const Hand& hand, const FingerWatch& watch, int joint, Real& due);
-// Keeps what a look at a place gave: its separation (m) and its safe step from here.
+// Keeps the evaluation of a point: its separation (m) and its safe step from here.
 void see_place(const Hand& hand, Real separation, Real step, const FingerMotion& motion, FingerWatch& watch);
-// What turns next of a finger that has looked around, where its bones are clear by so much: the same joint as now where it goes on.
+// The joint that turns next after a survey, with its bones `clear` by these distances: the same joint as now where it goes on.
 // blocked: it is at its start, and inside.
 int decide_turn(const Hand& hand, Vec3 clear, const FingerMotion& motion, bool& blocked);
 // The whole way of a finger that may close up to `limit`.

@@ -58,7 +58,7 @@ struct GripResult {
   double wrist_share = std::numeric_limits<double>::quiet_NaN();  // of a range, more than 1: beyond_wrist; NaN without an arm
   // Flexion, ulnar deviation and pronation of the wrist at that share, rad, of the core alone.
   std::array<double, 3> wrist_angles{wrist_share, wrist_share, wrist_share};
-  // Iterations, of the core alone (a device does not tell): of the longer trace of a tip, and of a finger's longest stage.
+  // Iterations, only from the core (a device reports none): of the longer trace of a tip, and of a finger's longest stage.
   int trace_steps = 0, advance_steps = 0;
 };
 

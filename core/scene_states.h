@@ -48,7 +48,7 @@ struct LargestForces {
   }
 };
 
-// What of a grip is scored besides its forces: masks of fingers and points, depths in m.
+// The scored values of a grip besides its forces: masks of fingers and points, depths in m.
 struct ScoredHand {
   std::uint32_t used_mask = 0, touch_mask = 0;
   Real phalanx_depth = 0, palm_depth = 0, closure = 0;
@@ -67,7 +67,7 @@ class SceneStates {
 
   // With another load than the states', at an opening g_grasp - g of the device, m.
   HeldForces forces(const VesselEntry& entry, const Pinch& pinch, const Load& load, TiltAngle tilt, Real opening) const;
-  // Over the tilts that count at one fill. `keep(tilt, forces)` is told of each of these states. `effort` is that
+  // Over the tilts that count at one fill. Calls `keep(tilt, forces)` for each of these states. `effort` is that
   // fill's in a scene with efforts; null there for an implausible grip.
   template <class Keep>
   wholehand::FillTerms fill_terms(const VesselEntry& entry, std::size_t fill, const Pinch& pinch, const FillEffort* effort,

@@ -38,7 +38,7 @@ Real element_distance_squared(const Element& element, Vec2 q) {
   return std::min(glm::dot(from_a, from_a), glm::dot(from_b, from_b));
 }
 
-// The sign of a cross product tells on which side of a line q lies; for an arc, being left of its right half is being left of the
+// The sign of a cross product says on which side of a line q lies; for an arc, being left of its right half is being left of the
 // center or inside the circle, and being left of its left half is being left of the center and outside it.
 bool element_crosses(const Element& element, Vec2 q) {
   const bool up = element.b.y > element.a.y;
@@ -170,8 +170,8 @@ Real lattice_sample(const Vessel& vessel, int i, int j, int k) {
 
 Real mix_reals(Real a, Real b, Real t) { return a + (b - a) * t; }
 
-// What lies in the box lies beyond the plane through the nearest point c of it, across the way there: its distance from p is not less
-// than the hypotenuse over that way and its distance from c.
+// A surface inside the box lies beyond the plane through the box's nearest point c, across the way there: its distance from p is at least
+// the hypotenuse over that way and its distance from c.
 Real distance_beyond(Real value, Vec3 outside) {
   const Real squared = glm::dot(outside, outside), held = std::max(value, Real(0));
   return squared > 0 ? std::sqrt(held * held + squared) : value;

@@ -32,7 +32,7 @@ struct Lattice {
   std::shared_ptr<const std::vector<std::uint32_t>> words;
 };
 
-// A vessel made ready for the kernels (core/prepare.h tells where each part comes from). Vessel frame, m.
+// A vessel made ready for the kernels (core/prepare.h says where each part comes from). Vessel frame, m.
 struct Vessel {
   bool is_lattice = false;
   std::vector<Element> outline;  // closed with the axis; what the distance is measured to
@@ -51,7 +51,7 @@ struct Vessel {
   std::vector<Real> lip_capacity;  // m3 at whole degrees 0..180; empty where the scene has no liquid
   bool on_table = false;           // the scene has a table
   Real table_top = 0;              // its height and the clearance
-  Arm arm;                         // of who takes it
+  Arm arm;                         // of the person who takes it
 };
 
 // The nearest element's number and squared distance, as the search carries them; the squared distance of the nearest one that is
@@ -95,7 +95,7 @@ Vec2 outward_of(const Element& element, Vec2 q, bool& at_end);
 Vec2 element_outward(const Element& element, Vec2 q, Real sign);
 // Whether the element, seen from q outside, lies beyond its tangent plane at the nearest point.
 bool element_convex(const Element& element, Vec2 q);
-// Whether the whole outline does, as `supports` tells for the place of the nearest point.
+// Whether the whole outline does, by `supports` at the place of the nearest point.
 bool element_supports(const Element& element, Vec2 q);
 // Nearest element of the outline (of equally near ones the first) and the crossing parity.
 Nearest nearest_element(const Vessel& vessel, Vec2 q, bool& inside);

@@ -15,7 +15,7 @@ using SobolPoint = std::array<double, SOBOL_DIMENSIONS>;  // each in (0, 1)
 
 // Direction numbers of Joe & Kuo (2008, new-joe-kuo-6), in Gray code order, so that any point is reached at once and its successor
 // costs one exclusive or per dimension. The seed gives a digital shift (exclusive or with a fixed word per dimension): it keeps
-// every stratification of the sequence and repeats. A point stands in the middle of its cell of 2^-32, so it is never 0 or 1.
+// every stratification of the sequence and repeats. A point is in the middle of its cell of 2^-32, so it is never 0 or 1.
 //
 // Written by hand since no small permissive package of Debian has it (Boost is 145 MB, GSL is under the GPL).
 class Sobol {

@@ -13,7 +13,7 @@ namespace {
 
 using Point2 = std::array<double, 2>;
 
-// Of what lies beyond a tangent, m: rounding of an outline's coordinates, and far less than the smallest distance at which a finger stops.
+// How far beyond a tangent a point may lie, m: rounding of the outline's coordinates, far less than a finger's smallest stop distance.
 constexpr double BEYOND_TOLERANCE = 1e-13;
 
 double dot(const Point2& a, const Point2& b) { return a[0] * b[0] + a[1] * b[1]; }

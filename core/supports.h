@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// Sets `supports` of every element of a closed outline (core/sdf.h). Where it cannot be told whether an element's tangents support, they
+// Sets `supports` of every element of a closed outline (core/sdf.h). Where it is unknown whether an element's tangents support, they
 // count as if they did not, which costs steps and nothing else: those of an arc beside another arc of more than 120 degrees on another
 // circle. The bits of an arc's own ends are of no use, since no plane is used there (element_convex).
 void mark_supports(std::vector<PreparedElement>& outline);

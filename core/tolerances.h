@@ -16,11 +16,11 @@ namespace wholehand {
 // Roundings that one number gathers on its way through a kernel, as a share of the quantity's largest value.
 constexpr double ROUNDINGS = 64;
 
-// How far two worst efforts may differ, as a share: each side solves to half of the tolerance 1e-3 and passes by states that are worse
-// by up to another half, and in float places of contacts end within 1e-6 m of arms of 5 mm, twice.
+// How far two worst efforts may differ, as a share: each side solves to half of the tolerance 1e-3 and skips states that are worse
+// by up to another half, and in float contacts differ by up to 1e-6 m on arms of 5 mm, on both sides.
 constexpr double EFFORT_SHARE = 2.4e-3;
 
-// That share for a hand. Where strengths are far apart the core widens a bracket, up to a tenth, until its forces balance.
+// The effort tolerance for a hand. Where strengths are far apart the core widens a bracket, up to a tenth, until its forces balance.
 inline double effort_share(const StrengthData& strengths) {
   constexpr double FAR_APART = 1e3, WIDEST = 0.1;
   double strongest = 0, weakest = std::numeric_limits<double>::infinity();

@@ -10,8 +10,8 @@
 namespace wholehand {
 
 // m, four of float's stop tolerances. A finger that comes to rest ends within one of the surface, a tracked tip within one and a half, on
-// either side of it and to rounding: so nearer than this nothing can be told from touching. The same in both precisions, so that which
-// one computes decides no outcome.
+// either side of it and to rounding: so a smaller distance counts as touching. The same in both precisions, so that the
+// precision decides no outcome.
 constexpr double LEAST_CONTACT = 4e-6;
 
 // What the kernels compare separations and depths with, m: the scene's, but no less than that.

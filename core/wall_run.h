@@ -7,7 +7,7 @@
 
 namespace CORE_NS {
 
-// The largest energy (loop_energy, J) that the last `late` of so many samples leave in the motion; NaN or infinite where it flies apart.
+// The largest energy (loop_energy, J) that the last `late` samples leave in the motion; NaN or infinite where it flies apart.
 double late_energy(const wholehand::WallCase& wall_case, int samples, int late);
 
 }  // namespace CORE_NS

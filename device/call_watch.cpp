@@ -14,7 +14,7 @@ namespace wholehand {
 namespace {
 
 constexpr long LOOK_NS = 2'000'000;     // between two looks
-constexpr double OWN_PATIENCE = 20e-3;  // s that its own call of the gripper may take before it is said to wait
+constexpr double OWN_PATIENCE = 20e-3;  // s that its own call of the gripper may take before it counts as waiting
 constexpr int RESCUE_PATIENCE = 20;     // ms: less than any watchdog that matters, and ten looks
 static_assert(std::atomic<LetGo>::is_always_lock_free && std::atomic<bool>::is_always_lock_free, "used in a signal handler");
 

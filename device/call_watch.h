@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A second thread that looks at how long the haptic thread has been in a call of the device.
+// A second thread that watches how long the haptic thread has been in a call of the device.
 #pragma once
 
 #include <atomic>

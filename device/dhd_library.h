@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Force Dimension's SDK, loaded at run time by whoever has it: nothing of the vendor's is needed to build or to run without such a device.
+// Force Dimension's SDK, loaded at run time where it is installed: building, and running without such a device, need nothing of the vendor.
 #pragma once
 
 #include <string>
@@ -37,7 +37,7 @@ struct DhdLibrary {
   unsigned int (*get_button_mask)(char id) = nullptr;  // null where this release of the SDK has none
 };
 
-// Where the SDK says it is, in this order, if nobody names a path. libdrd has all of libdhd.
+// Where the SDK says it is, in this order, if no path is named. libdrd has all of libdhd.
 extern const std::vector<std::string> DHD_LIBRARY_NAMES;
 
 // Loads `path` or, where it is empty, what the environment variable WHOLEHAND_DHD_LIBRARY names or else the first of `names` that is

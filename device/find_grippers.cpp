@@ -12,7 +12,7 @@ void append(std::vector<GripperFound>& all, const std::vector<GripperFound>& som
   all.insert(all.end(), some.begin(), some.end());
 }
 
-// What was looked for, where nothing of a kind is found.
+// Adds an entry that says what was searched for, where nothing of a kind is found.
 std::vector<GripperFound> or_missing(std::vector<GripperFound> found, const char* kind, const char* looked_for) {
   if (found.empty()) {
     found.push_back({"", kind, "",

@@ -80,20 +80,20 @@ class Gripper {
   virtual LetGo let_go_meanwhile() noexcept { return LetGo::nothing; }
   // A line that the user must see now, once; asked from time to time by another thread than the haptic one, which it does not make wait.
   virtual std::optional<std::string> news() { return std::nullopt; }
-  // What was odd, for the report of a session that is over.
+  // Oddities, for the report of a session that is over.
   virtual std::vector<std::string> remarks() const { return {}; }
-  // What is on the screen after this tick: for simulated users, and hands that are told the session's state.
+  // What is on the screen after this tick: for simulated users, and hands that receive the session's state.
   virtual void show(const Tick&) noexcept {}
   // The number that the next tick must have: a recording's, in which some may be missing. -1: the loop's own
   // clock counts.
   virtual std::int64_t dictated_tick() const noexcept { return -1; }
-  // Whether the one who holds it is done: a simulated user, a recording at its end.
+  // Whether its user is done: a simulated user, a recording at its end.
   virtual bool is_done() const noexcept { return false; }
   // Whether the recording has zero force in the tick that was read last though the method wanted one: the force began there, or anew after a stall.
   virtual bool dictates_zero() const noexcept { return false; }
 
-  // The force of the last write that was begun, for whoever must say it from another thread or a signal handler: a write that fails half-way
-  // may have reached the device.
+  // The force of the last write that was begun, for messages from another thread or a signal handler: a write that fails half-way may
+  // have reached the device.
   void note(const GripperForce& force) noexcept {
     noted_arm_.store(norm(force.arm), std::memory_order_relaxed);
     noted_grip_.store(std::abs(force.grip), std::memory_order_relaxed);

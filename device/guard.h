@@ -10,7 +10,7 @@
 
 namespace wholehand {
 
-// Looks at every read and limits every write of a session. Neither allocates nor throws.
+// Checks every read and limits every write of a session. Neither allocates nor throws.
 class Guard {
  public:
   Guard(const LiveData& live, const GripperLimits& limits);

@@ -172,7 +172,7 @@ void HapticLoop::end(Fault fault, std::int64_t number) noexcept {
   release(fault, tick);
 }
 
-// No force, at once and without slew; what was last is told with it.
+// No force, at once and without slew; the report keeps the last tick.
 void HapticLoop::release(Fault fault, Tick& tick) noexcept {
   // the fault and its words first: letting go may have words of its own, or may not return
   std::snprintf(trouble_.data(), trouble_.size(), "%s", gripper_.trouble());

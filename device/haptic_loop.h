@@ -88,7 +88,7 @@ class HapticLoop {
   int late_ = 0;               // steps in a row
   GripperState state_;         // of the last read
   LoopReport report_;
-  // of report_, before they are strings; set before the flags below
+  // words of report_, before they are strings; set before the flags below
   std::array<char, 200> trouble_{}, let_go_trouble_{};
   std::atomic<bool> is_ending_{false};  // all of report_ stays as it is, but for what became of the force
   std::atomic<LetGo> let_go_{LetGo::not_asked};

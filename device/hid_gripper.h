@@ -15,7 +15,7 @@ namespace wholehand {
 // another session, another protocol version, no measurements.
 std::unique_ptr<Gripper> open_hid(const std::string& path, double watchdog_s);
 
-// Every HID device whose report descriptor says that it is a gripper. Reads the identity of those that nobody uses; does not throw.
+// Every HID device whose report descriptor says that it is a gripper. Reads the identity of those not in use; does not throw.
 std::vector<GripperFound> find_hid_grippers();
 
 }  // namespace wholehand

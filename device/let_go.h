@@ -16,12 +16,12 @@ enum class LetGo : std::uint8_t {
   not_asked,  // its library cannot be called at that moment
 };
 
-// A force that is said, N: its magnitude at the arm and on each finger.
+// Size of a force for messages, N: its magnitude at the arm and on each finger.
 struct ForceSize {
   double arm = 0, grip = 0;
 };
 
-constexpr double UNKNOWN_WATCHDOG = -1;  // in the place of a period: whether it has one nobody here knows
+constexpr double UNKNOWN_WATCHDOG = -1;  // instead of a period: the watchdog is unknown
 
 // "zero force was written"; or that it was not, then with `last`, the force that was written before, and who takes it away: the device's watchdog
 // of that period, s; 0: it has none; or UNKNOWN_WATCHDOG. `why`: the device's words, may be empty. Safe in a signal handler.

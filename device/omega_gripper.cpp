@@ -30,13 +30,13 @@ Rotation rotation_from_dhd(const double frame[3][3]) {
 
 namespace {
 
-constexpr const char* PLACE = "omega";    // of what is said of the library
+constexpr const char* PLACE = "omega";    // names the library in messages
 constexpr double WATCHDOG_STEP = 125e-6;  // s
 constexpr int WATCHDOG_STEPS = 255;
 constexpr std::array<double, 2> GAP{0, 25e-3};  // m, of the data sheets
 
 // Types: the constants DHD_DEVICE_OMEGA331 and so on, as CHAI3D's src/devices/CDeltaDevices.h has them. Forces: the table in CHAI3D's
-// src/devices/CDeltaDevices.cpp. For the sigma.7 the data sheet is said to allow 20 N; until somebody has read it there, 12 N are.
+// src/devices/CDeltaDevices.cpp. For the sigma.7, 12 N until somebody has read the data sheet, which reportedly allows 20 N.
 struct Model {
   int type;
   const char* name;
@@ -48,7 +48,7 @@ constexpr std::array<Model, 4> MODELS{
 
 bool is_plain(char letter) { return letter >= ' ' && letter <= '~'; }
 
-// What a vendor's library says is of no known encoding: letters beyond ASCII become '?', line ends a space.
+// A vendor's library has no known encoding: letters beyond ASCII become '?', line ends a space.
 std::string printable(std::string text) {
   for (char& letter : text)
     if (!is_plain(letter)) letter = letter == '\n' ? ' ' : '?';
@@ -232,7 +232,7 @@ class OmegaGripper final : public Gripper {
     state.position = from_dhd(is_finite(position) ? middle : position);
     state.rotation = rotation_from_dhd(frame);
     // the gripper angle of left-hand devices is negative (manual of the lambda.7, "gripper angle",
-    // https://www.easymanua.ls/force-dimension/lambda-7-haptic-device/manual?p=18); whether their gap is too is nowhere said
+    // https://www.easymanua.ls/force-dimension/lambda-7-haptic-device/manual?p=18); no source says whether their gap is too
     state.gap = limits_.is_left_handed ? std::fabs(gap) : gap;
     return true;
   }

@@ -22,13 +22,13 @@ Rotation rotation_from_dhd(const double frame[3][3]);
 
 // Opens device `number` of those that the SDK counts (0: the first; address "omega" or "omega:NUMBER"). `library`: path of the SDK, or
 // empty (see load_dhd_library). `watchdog_s`: without a new force for that long the device drops all force, whatever has become of this
-// program; in steps of 125 us, 31.875 ms at most. What is asked for beyond that and a device that has no watchdog are told on stderr.
+// program; in steps of 125 us, 31.875 ms at most. stderr reports a longer time and a device that has no watchdog.
 //
 // The name and what the SDK says of errors are kept to printable ASCII.
 //
 // read() answers value or error, never timeout: the SDK waits by itself and fails when the device is gone. A pose that is not finite is
 // handed on as it is, for the loop to judge. The SDK gives a measurement neither a number nor a time of its own: `sequence` counts reads, so
-// that a stale measurement cannot be told from a device that rests, and `time` is the SDK's clock at the read.
+// that a stale measurement looks like a device at rest, and `time` is the SDK's clock at the read.
 // write() leaves the device without force until a read has been good, and then enables force with the first write.
 // panic() calls nothing, since no call of the SDK may be made from a signal handler (they lock and allocate): it is a second thread's part, by
 // let_go_meanwhile(), and the watchdog's.

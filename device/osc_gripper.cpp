@@ -25,8 +25,8 @@
 namespace wholehand {
 namespace {
 
-constexpr int MOST_DATAGRAMS = 32;              // that one read takes: who floods the port does not hold the loop up
-constexpr std::size_t MOST_CALLERS = 256;       // whose datagrams are looked at before the first state
+constexpr int MOST_DATAGRAMS = 32;              // that one read takes: a flooded port does not hold the loop up
+constexpr std::size_t MOST_CALLERS = 256;       // whose datagrams are read before the first state
 constexpr int RELEASES = 3;                     // of the last message: a network may lose one
 constexpr double RELEASE_PAUSE = 1e-3;          // s between two of them
 constexpr std::size_t LARGEST_DATAGRAM = 2048;  // bytes: more than what networks pass on in one piece
@@ -65,14 +65,14 @@ struct Heard {
   const char* wrong = nullptr;  // null: nothing
 };
 
-// Who sends something before there is a hand.
+// A sender before there is a hand.
 struct Caller {
   UdpAddress from;
   std::optional<osc::Hello> hello;
   const char* wrong_hello = nullptr;  // what is wrong with a hello of it
 };
 
-// What came and was not obeyed. Counted by the haptic thread, asked for by others.
+// Counts of the datagrams that were not obeyed. The haptic thread counts, others read.
 struct Ignored {
   std::atomic<std::int64_t> malformed{0}, late{0}, foreign{0};
   std::atomic<const char*> first_wrong{nullptr};  // of the malformed ones
@@ -122,14 +122,14 @@ class OscGripper final : public Gripper {
   std::optional<std::string> news() override;
   std::vector<std::string> remarks() const override;
 
-  // What the user must know of an address that others can reach; empty: nobody can.
+  // A warning for an address that others can reach; empty: no other can.
   std::string openness() const {
     if (address_.is_loopback()) return "";
     return limits_.address + ": whoever reaches this port first is the hand, and the forces go there unencrypted";
   }
   // The start: until the first state. Throws Error (failure).
   void wait_for_hand(double patience);
-  // Who it is, and what it bears.
+  // The hand's address and the forces that it bears, in words.
   std::string hand() const {
     return fmt::format("{}{} {:g} N at the arm and {:g} N on each finger", words_of(hand_),
                        has_hello_ ? "; its hello says that it bears" : ", without a hello; so it has to bear", limits_.force,
@@ -160,8 +160,8 @@ class OscGripper final : public Gripper {
   PacketMotion motion_;
   PacketSteps steps_;
   double period_;            // s
-  UdpAddress hand_, to_;     // who is obeyed, and where the forces go; set before the session
-  bool has_hand_ = false;    // somebody said where the hand is
+  UdpAddress hand_, to_;     // the obeyed sender, and where the forces go; set before the session
+  bool has_hand_ = false;    // the hand's address is known
   bool has_hello_ = false;   // and what it bears
   bool is_new_ = false;      // newest_ came since the last read
   bool is_missing_ = false;  // no state came when the loop began
@@ -172,7 +172,7 @@ class OscGripper final : public Gripper {
   GripperState newest_;      // as it came
   std::uint32_t reads_ = 0, writes_ = 0;
   int shown_ = 0;                 // state of the session
-  const char* breach_ = nullptr;  // why the forces that it was said to bear may be too much
+  const char* breach_ = nullptr;  // why the forces that it claimed to bear may be too much
   const char* trouble_ = "";
   std::array<char, 120> unsent_{};  // words for what the system does not send
   Ignored ignored_;
@@ -251,8 +251,8 @@ void OscGripper::obey(const osc::Words& words) noexcept {
   if (is_moving_ && is_finite(newest_) && !steps_.allows(newest_, tick_)) has_jumped_ = true;
 }
 
-// The first who says where it is becomes the hand. It says what it bears before that, or with it. A hello that cannot be read
-// must not count as no hello: the largest forces may be too much.
+// The first sender of a state becomes the hand. Its hello, with the forces that it bears, comes before or with it. A hello that cannot
+// be read must not count as no hello: the largest forces may be too much.
 void OscGripper::meet(Caller& caller, const Heard& heard) {
   const osc::Words& words = heard.words;
   if (heard.wrong && words.names_hello) caller.wrong_hello = heard.wrong;
@@ -301,8 +301,8 @@ void OscGripper::refuse_silence(double patience, const std::vector<Caller>& call
   throw failure_error(fmt::format("{}: {}", limits_.address, why));
 }
 
-// What came while the session was prepared is old, and the system may have dropped what came after it: only its sequence counts. Then
-// the session begins where the hand is now.
+// Datagrams from before the session are old, and the system may have dropped later ones: only their sequence counts. Then the session
+// begins where the hand is now.
 void OscGripper::begin() noexcept {
   const double end = monotonic_now() + OSC_SILENCE;
   while (take_datagram() && monotonic_now() < end) {

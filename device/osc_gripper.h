@@ -16,10 +16,10 @@ namespace wholehand {
 constexpr double OSC_START = 10;       // s that a session waits for its hand
 constexpr double OSC_SILENCE = 50e-3;  // s without a new state: the hand is gone
 
-// Listens at an address of this machine (port 0: any that is free) until somebody says where the hand is, and takes the first who does; the
-// hand moves between its messages as PacketMotion says. `say` is given lines for the user: where it waits, and what is unsafe. Where no
-// hello says otherwise, its gap is that of the scene's hand and its largest forces are the paper's. Throws Error (failure): no such
-// address, its port in use, nobody there for `patience`.
+// Listens at an address of this machine (port 0: any that is free) for states of a hand, and takes the first sender; the hand moves
+// between its messages as PacketMotion says. `say` gets lines for the user: where it waits, and what is unsafe. Unless a hello says
+// otherwise, its gap is that of the scene's hand and its largest forces are the paper's. Throws Error (failure): no such address, its
+// port in use, no hand for `patience`.
 std::unique_ptr<Gripper> open_osc(const HostPort& at, const Scene& scene, const std::function<void(const std::string&)>& say,
                                   double patience = OSC_START);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a hand over the network says and hears, as messages of Open Sound Control: docs/devices.md describes them. Pure functions; nothing
+// Messages to and from a hand over the network, by Open Sound Control: docs/devices.md describes them. Pure functions; nothing
 // here allocates or throws.
 #pragma once
 
@@ -35,7 +35,7 @@ struct Hello {
 struct Words {
   bool has_hello = false, has_state = false, has_bye = false;
   Hello hello;
-  // The latest by its sequence, or the first with a NaN: the guard looks at it. A quaternion of another length than 1 makes the
+  // The latest by its sequence, or the first with a NaN: the guard checks it. A quaternion of another length than 1 makes the
   // rotation NaN.
   GripperState state;
   bool is_any() const { return has_hello || has_state || has_bye; }

@@ -58,7 +58,7 @@ class PacketMotion {
 
 // Finds a sender that jumps: PacketMotion would make a quick move of it. A step between two measurements must not be faster than is
 // allowed, in the time between them or in the mean of the last INTERVALS, whichever is longer: measurements that were late come in
-// bunches. A tick more, as it is known in whole ticks when they came. Before so many came, a missing interval counts as LONGEST.
+// bunches. A tick more, as arrivals are known in whole ticks. Until INTERVALS have come, a missing one counts as LONGEST.
 class PacketSteps {
  public:
   // `rate`: ticks a second; `jump` in m/s of place and gap, `turn` in rad/s.

@@ -18,14 +18,14 @@ namespace {
 constexpr FailureSignal WISHES[] = {{SIGQUIT, "SIGQUIT"}, {SIGALRM, "SIGALRM"},     {SIGUSR1, "SIGUSR1"}, {SIGUSR2, "SIGUSR2"},
                                     {SIGXCPU, "SIGXCPU"}, {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"}, {SIGPWR, "SIGPWR"},
                                     {SIGIO, "SIGIO"},     {SIGSTKFLT, "SIGSTKFLT"}};
-// the first of them is a wish that the session ends, another one that it ends at once
+// the first of them asks the session to end, another one to end at once
 constexpr FailureSignal INTERRUPTS[] = {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
 // the write that meets them fails by itself
 constexpr int IGNORED[] = {SIGXFSZ, SIGPIPE};
 
 std::atomic<Gripper*> at_hand{nullptr};
 std::atomic<CallWatch*> watch_at_hand{nullptr};
-std::atomic<const char*> library_at_hand{nullptr};          // whose calls are made; null: nobody's
+std::atomic<const char*> library_at_hand{nullptr};          // the library in use; null: none
 std::atomic<int> libraries{0};                              // guards that say so
 std::atomic<pid_t> first{0};                                // thread that failed first; 0: none
 std::atomic<int> depth{0};                                  // of its failures
@@ -56,7 +56,7 @@ void let_go(Gripper& gripper, SafeLine& line) {
   add_force_words(line, outcome, last, depth <= 2 ? gripper.limits().watchdog : 0);
 }
 
-// `line` says what happened, `wish` what is to be done about it.
+// `line` says what happened, `wish` what the user should do.
 [[noreturn]] void end_here(SafeLine& line, const char* wish) {
   // the first one lets go; another thread that fails meanwhile waits for it to end the process
   const pid_t self = gettid();

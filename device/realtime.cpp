@@ -19,7 +19,7 @@ namespace {
 constexpr int PRIORITY = 80;              // of 1..99: above interrupt threads' 50
 constexpr std::size_t STACK = 64 * 1024;  // bytes that a tick may need
 
-// So that the first deep call does not fault pages in.
+// Touches the stack so that the first deep call faults no pages in.
 void touch_stack() {
   char stack[STACK];
   explicit_bzero(stack, sizeof stack);

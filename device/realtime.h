@@ -11,7 +11,7 @@ namespace wholehand {
 // a line, with the remedy, for each that is not permitted: the loop runs without it, and later wakings are then the system's.
 std::vector<std::string> make_realtime();
 
-// Puts the calling thread above such a one, where that is permitted: for who looks after it and sleeps most of the time.
+// Puts the calling thread above such a one, where that is permitted: for a watching thread that sleeps most of the time.
 void outrank_realtime() noexcept;
 
 }  // namespace wholehand

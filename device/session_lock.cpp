@@ -22,8 +22,8 @@ std::string lock_directory() {
   return access("/run/lock", W_OK | X_OK) == 0 ? "/run/lock" : "/tmp";
 }
 
-// Whoever made it, anybody may lock it. It is opened first and made only where it is not there: in a folder that all may write to, a kernel
-// lets nobody else open a user's file with leave to make it.
+// Every user may lock it, whoever made it. Opens it first and makes it only where it is not there: in a folder that all may write to, a
+// kernel lets no other user open a user's file with O_CREAT.
 int open_lock_file(const std::string& path) {
   const int there = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (there >= 0 || errno != ENOENT) return there;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A grip that the one who holds a simulated gripper is shown, as a ghost hand is on a screen.
+// A grip that the user of a simulated gripper sees, like a ghost hand on a screen.
 #pragma once
 
 #include <cstdint>

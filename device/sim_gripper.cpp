@@ -27,7 +27,7 @@ std::array<double, 2> sim_gap(const Scene& scene, const core_f64::Hand& hand) {
   return {hand.scale * hand.gap_closed, hand.scale * hand.gap_open};
 }
 
-// What was shown some ticks ago.
+// Delays what is shown by some ticks.
 class Delay {
  public:
   Delay(double longest, double rate) : ring_(static_cast<std::size_t>(std::ceil(longest * rate)) + 1), rate_(rate) {}
@@ -146,7 +146,7 @@ class SimGripper final : public Gripper {
   bool is_done() const noexcept override { return user_.is_done(); }
 
  private:
-  // Of the hand; the fingers are on the device.
+  // Gap of the hand; fingers_ are on the device.
   double hand_gap() const noexcept { return hand_gap_[1] - workspace_.gap_slope() * fingers_.place(); }
 
   // The person's own numbers in the grasp that begins.
@@ -188,7 +188,7 @@ class SimGripper final : public Gripper {
   std::array<double, 2> hand_gap_;  // closed, open, m
   Workspace workspace_;
   SimUser user_;
-  ShownGripSource* shown_grips_;  // null: the person follows nobody
+  ShownGripSource* shown_grips_;  // null: the person follows none
   ShownGrip shown_grip_;
   double period_;
   SimFingers fingers_;

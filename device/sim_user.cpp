@@ -154,8 +154,7 @@ void SimUser::follow_load(const SimSense& sense, double seconds) noexcept {
   wish_.force = std::clamp(loaded_force(traits_, first_force(traits_, weight_), load_), 0.0, largest_force(traits_));
 }
 
-// What is shown of the vessel that is meant is the grip from now on, also in further tries. The person aims at it as well, or as badly, as
-// at any other.
+// Takes the grip shown for the job's vessel from now on, also in further tries. The person aims at it as well or as badly as at any other.
 void SimUser::take_shown() noexcept {
   if (shown_.vessel != job().vessel) return;
   SimJob& own = jobs_[static_cast<std::size_t>(job_)];
@@ -164,7 +163,7 @@ void SimUser::take_shown() noexcept {
   own.path = shown_.path;
 }
 
-// Of the tips while it is poured: a grasp that is higher on the vessel leaves the vessel where it is.
+// Middle of the tips while the vessel pours. A grasp that is higher on the vessel leaves the vessel where it is.
 Vec3 SimUser::on_path(double tilt) const noexcept {
   const double up = of(traits_, Trait::height);
   return job().path.middle(tilt) + up * Vec3(0, std::cos(tilt), -std::sin(tilt));
@@ -194,7 +193,7 @@ void SimUser::begin(Phase phase) noexcept {
   roll_to_ = job().grip.roll + of(traits_, Trait::roll);
   azimuth_from_ = wish_.azimuth;
   obliquity_from_ = wish_.obliquity;
-  // who pours turns the vessel towards the target on the way there
+  // a user who pours turns the vessel towards the target on the way there
   const bool is_poured = job().kind == SimJob::Kind::pour && phase >= Phase::carry && phase <= Phase::open;
   azimuth_to_ = is_poured ? 0 : of(traits_, Trait::azimuth);
   obliquity_to_ = job().grip.obliquity + of(traits_, Trait::obliquity);

@@ -36,7 +36,7 @@ struct ChosenGrip {
 // The best roll among those that have the palm away from the user, with all else of `grip`. None is feasible: nothing.
 std::optional<ChosenGrip> best_roll(const Evaluator& evaluator, std::size_t vessel, const GripInput& grip);
 
-// What there is to do in a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point that is
+// The jobs of a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point that is
 // shown then, without one where the grip scores best, always with the palm away from the user. Vessels that no such grip holds are
 // left out; throws Error (usage) where none is left.
 std::vector<SimJob> plan_sim_jobs(const Scene& scene);
@@ -75,7 +75,7 @@ class SimUser {
  public:
   // `live` must outlive it, and has the person's own hand.
   SimUser(const LiveScene& live, std::vector<SimJob> jobs, const Participant& person);
-  // From now on the person looks at the grip that is shown before closing the hand, and takes it.
+  // From now on the person looks at the shown grip before closing the hand, and takes it.
   void follow_shown() noexcept { follows_ = true; }
   // What is on the screen now.
   void see(const ShownGrip& shown) noexcept { shown_ = shown; }

@@ -19,7 +19,7 @@ class Transport {
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;
 
-  // How many reports wait where nobody reads; beyond them the newer ones are lost.
+  // How many reports wait until they are read; newer ones beyond are lost.
   virtual int queue_length() const noexcept = 0;
   // The next report in the order in which they came, waiting for it so long, s; `into` has LARGEST_SIZE bytes.
   virtual ReadOutcome receive(std::span<std::uint8_t> into, std::size_t& length, double patience) noexcept = 0;

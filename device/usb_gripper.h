@@ -15,7 +15,7 @@ namespace wholehand {
 // gripper, no permission, in use by another session, another protocol version, no measurements.
 std::unique_ptr<Gripper> open_usb(const std::string& vid_pid, double watchdog_s);
 
-// Every USB device with a gripper's interface. Reads the identity of those that nobody uses; does not throw.
+// Every USB device with a gripper's interface. Reads the identity of those not in use; does not throw.
 std::vector<GripperFound> find_usb_grippers();
 
 }  // namespace wholehand

@@ -21,7 +21,7 @@ struct UsbContextCloser {
 };
 using UsbContext = std::unique_ptr<libusb_context, UsbContextCloser>;
 
-// What of a device is the gripper.
+// The part of a device that is the gripper.
 struct UsbPart {
   int interface = 0;
   std::uint8_t in = 0, out = 0;  // endpoint addresses

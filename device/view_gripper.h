@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of a live view in the place of a gripper: whoever drags the hand in a browser moves it, and feels nothing.
+// The page of a live view as a gripper: a user drags the hand in a browser, and feels nothing.
 #pragma once
 
 #include <array>
@@ -61,17 +61,17 @@ class ViewInput {
 };
 
 // The gripper behind it, with the paper's limits of force and, unless [device] gap_mm says otherwise, the hand's own gap. It rests at the
-// start until the first control and at the last control after it: one who pauses is no fault. On the way it follows as a critically damped
+// start until the first control and at the last control after it: a pause is no fault. On the way it follows as a critically damped
 // spring would, no faster than the VIEW_* below and half of what the guard calls a jump. Every read has a value; forces go nowhere. `input`
 // must outlive it and be of the same scene.
 std::unique_ptr<Gripper> open_view(const Scene& scene, ViewInput& input);
 
-// Of the hand in the world; docs/devices.md.
+// Limits on the motion of the hand in the world; docs/devices.md.
 constexpr double VIEW_RATE = 60;         // 1/s: 33 ms behind, and of the steps of a mouse at 60 Hz one hundredth is left
 constexpr double VIEW_SPEED = 2;         // m/s: an arm in a hurry
 constexpr double VIEW_GAP_SPEED = 0.5;   // m/s: fingers that snap shut
 constexpr double VIEW_TURN = 10;         // rad/s: a third of a quick wrist
-constexpr double VIEW_REACH = 0.4;       // m around all that stands there
-constexpr double VIEW_CLEARANCE = 0.15;  // m from the start to what stands there
+constexpr double VIEW_REACH = 0.4;       // m around the vessels and the target
+constexpr double VIEW_CLEARANCE = 0.15;  // m in front of them, where the hand starts
 
 }  // namespace wholehand

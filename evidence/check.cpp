@@ -67,7 +67,7 @@ class Checking {
     on_double_ = std::make_unique<host::GripBackend>(device_scene, device_core, fields_, options.on, backend_options);
   }
 
-  // The evaluations of the core that add makes of so many grips of the vessel.
+  // The evaluations of the core that add makes for `grips` grips of the vessel.
   std::uint64_t evaluations(std::size_t v, std::size_t grips) const {
     return translation_.evaluations(v, grips) + cost_.evaluations(v, grips) + (on_double_ ? exact_.evaluations(v, grips) : 0);
   }

@@ -41,7 +41,7 @@ struct CheckedPair {
   std::uint64_t grips = 0, feasible = 0;
   std::uint64_t grazing = 0;   // left out
   std::uint64_t excluded = 0;  // a discrete outcome differs within the margin
-  std::uint64_t allowed = 0;   // so many of these are no evidence
+  std::uint64_t allowed = 0;   // how many of these are no evidence
   bool holds = false;
 };
 
@@ -69,7 +69,7 @@ struct CheckVerdict {
       advice;  // what gives right numbers here, which the comparisons have shown; empty where it holds or nothing was compared
 };
 
-// What of the scene is beyond float's domain, a line each, with the remedy.
+// Lines on what exceeds float's domain in the scene, with the remedy.
 std::vector<std::string> check_warnings(const Scene& scene);
 
 // The error of a device, for a command that the core does not help: the remedy is a sweep's.

@@ -61,7 +61,7 @@ CheckJson place_json(const CheckedQuantity& quantity) {
 
 CheckJson quantity_json(const CheckedQuantity& quantity, const CheckedPair& pair) {
   const Comparison& row = quantity.row;
-  // of the numbers, grips that graze or whose outcome differs are left out; a row of the liquid counts states
+  // numbers leave out grips that graze or whose outcome differs; a row of the liquid counts states
   const bool counts_grips = row.kernel != "liquid";
   return {{"kernel", row.kernel},
           {"quantity", row.quantity},

@@ -22,7 +22,7 @@ Axis range_around(const Axis& axis, double reach, double low, double high) {
   return {{std::max(low, *least - reach), std::min(high, *most + reach)}, true};
 }
 
-// The scene with so many Sobol grips in the box about the vessel's own.
+// The scene with `count` Sobol grips in the box about the vessel's own.
 Scene scene_around(const Scene& scene, std::size_t vessel, std::size_t count) {
   constexpr double ANY = std::numeric_limits<double>::infinity();
   constexpr double SHARE = 0.05;

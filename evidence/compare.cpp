@@ -18,10 +18,10 @@
 namespace wholehand {
 namespace {
 
-constexpr const char* PEAK_TILT = "force short of peak";  // at the tilt that the other side tells
+constexpr const char* PEAK_TILT = "force short of peak";  // at the tilt that the other side reports
 constexpr const char* WORST_STATE =
-    "effort short of worst";  // 1 / (1 + effort) of the state that is told to be the worst, above the least
-constexpr const char* SAFE_TILT = "force beyond safe";  // where one side tells a larger safe tilt
+    "effort short of worst";  // 1 / (1 + effort) of the state that is reported as the worst, above the least
+constexpr const char* SAFE_TILT = "force beyond safe";  // where one side reports a larger safe tilt
 
 const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
                                 FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
@@ -73,7 +73,7 @@ std::vector<GripInput> moved(const std::vector<GripInput>& grips, int way, doubl
 }
 constexpr int WAYS = 10;
 
-// The scene with tips that are thicker by so much, which is what meeting the surface within a tolerance comes to.
+// The scene with tips thicker by these amounts, which is equivalent to meeting the surface within a tolerance.
 Scene with_tips(Scene scene, double thumb, double index) {
   scene.hand.fingers[0].radii[3] += thumb / scene.hand.scale;
   scene.hand.fingers[1].radii[4] += index / scene.hand.scale;
@@ -91,14 +91,14 @@ bool is_held(const GatheredPlanes& planes, int field) {
   return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
 }
 
-// What the comparison of told tilts looks at.
+// Whether both sides have what the comparison of reported tilts needs.
 bool has_tilts(const Scene& scene, const FieldSet& fields) {
   const auto needed = {FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_FEEDBACK_FORCE, FIELD_NORMAL_FORCE};
   return std::all_of(needed.begin(), needed.end(), [&](int field) { return fields.has(field); }) &&
          (has_effort(scene) || fields.has(FIELD_HOLD_FORCE));
 }
 
-// What the comparison of told worst states looks at.
+// Whether both sides have what the comparison of reported worst states needs.
 bool has_worst_state(const FieldSet& fields) {
   return fields.has(FIELD_WORST_EFFORT) && fields.has(FIELD_WORST_EFFORT_FILL) && fields.has(FIELD_WORST_EFFORT_TILT);
 }
@@ -271,7 +271,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   if (has_worst_state(fields)) add_worst_states(vessel, grips, a, b, truth, left_out, tolerance);
 }
 
-// Whether the grip's verdict may depend on how far the core's own answers move: outcomes differ or graze, the sides tell different
+// Whether the grip's verdict may depend on how far the core's own answers move: outcomes differ or graze, the sides report different
 // states, or a number differs by more than its floor, to which a spread can only add.
 bool Comparer::needs_spread(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
                             const Tolerance& floor, std::size_t i) const {
@@ -291,7 +291,7 @@ bool Comparer::needs_spread(std::size_t vessel, const GatheredPlanes& a, const G
   });
 }
 
-// Whether the sides tell different tilts of the field, at any fill.
+// Whether the sides report different tilts of the field, at any fill.
 bool Comparer::tells_apart(int field, const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) const {
   for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
     const auto told = [&](const GatheredPlanes& side) {
@@ -344,7 +344,7 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
   if (chosen.empty()) return spread;
   std::vector<GripInput> grips;
   for (const std::size_t i : chosen) grips.push_back(all[i]);
-  // of the planes from `first` on, which are those from `first_of_other` on of the other
+  // spread of the planes from `first` on, which are those from `first_of_other` on of the other
   const auto spread_to = [&](GatheredPlanes other, int first, int first_of_other, int planes) {
     on_evaluated_(m);
     to_compared_form(other);
@@ -495,12 +495,12 @@ double Comparer::search_floor(int field, std::size_t plane, std::size_t vessel, 
                                               : floor(0) + floor(0.5);  // more than of any term
 }
 
-// A tilt that is told is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.
+// A reported tilt is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.
 void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
                          const std::vector<char>& left_out, const Tolerance& tolerance) {
   const FieldSet& fields = a.fields;
   const bool by_effort = has_effort(scene_);
-  std::vector<std::size_t> asked;  // where the sides tell different safe tilts
+  std::vector<std::size_t> asked;  // where the sides report different safe tilts
   for (std::size_t i = 0; by_effort && i < a.count; ++i)
     if (left_out[i] == 0 && tells_apart(FIELD_SAFE_TILT, a, b, i)) asked.push_back(i);
   const StateEfforts efforts(scene_, core_, vessel, grips, asked);
@@ -559,7 +559,7 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
   }
 }
 
-// The state that is told to be the worst is a choice among all: where the sides name two, each must be as bad as the worst by the core's
+// The reported worst state is a choice among all: where the sides name two, each must be as bad as the worst by the core's
 // efforts, to the tolerance of the worst effort and to how far the effort of this state moves.
 void Comparer::add_worst_states(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a,
                                 const GatheredPlanes& b, const GatheredPlanes& truth, const std::vector<char>& left_out,
@@ -614,8 +614,8 @@ double Comparer::shift(std::size_t vessel) const {
   return allowed_.stop_tolerance + ROUNDINGS * allowed_.epsilon * (reach(scene_) + scene_.vessels[vessel].height);
 }
 
-// The place of a told value among the listed ones, from 1; 0 where none is told, and nothing where what is told is not one of them, which
-// are handed through and at most rounded to the coarser precision. No value is larger than `largest`.
+// The place of a reported value among the listed ones, from 1; 0 for NaN, and nothing where it is none of them. Listed values are at most
+// rounded to the coarser precision. No value is larger than `largest`.
 std::optional<std::size_t> Comparer::place_told(double told, const std::vector<double>& listed, double largest) const {
   if (std::isnan(told)) return 0;
   const std::size_t nearest = nearest_place(listed, told);

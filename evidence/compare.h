@@ -22,8 +22,8 @@
 
 namespace wholehand {
 
-// What may differ between two evaluations that are both right: numbers by rounding, and outcomes in how many grips.
-// Which precision's rounding and stop tolerance the two sides have: the coarser of the two.
+// Allowed differences between two evaluations that are both right: numbers by rounding, and outcomes in how many grips.
+// Rounding and stop tolerance are those of the coarser precision of the two.
 struct Allowance {
   double epsilon = 0;          // of the reals
   double stop_tolerance = 0;   // m
@@ -36,12 +36,12 @@ Allowance allowance(Precision precision);
 // Float on one side, double on the other.
 Allowance float_against_double();
 
-// Within the margin, discrete outcomes may differ in FLIP_SHARE of the grips in the long run. A sample speaks against that where so many
-// that differ, or more, would come up in less than FLIP_SIGNIFICANCE of all samples if the share were just that. Strict, since grips beside
-// each other differ together, and since a check judges up to three comparisons and must not fail by chance.
+// Within the margin, discrete outcomes may differ in FLIP_SHARE of the grips in the long run. A sample contradicts that where as many
+// differences, or more, would occur in less than FLIP_SIGNIFICANCE of all samples if the share were exactly that. Strict, since grips
+// beside each other differ together, and since a check judges up to three comparisons and must not fail by chance.
 constexpr double FLIP_SHARE = 1e-3;
 constexpr double FLIP_SIGNIFICANCE = 1e-6;
-// How many of so many compared grips may differ: 1 of 1, 3 of 72, 6 of 400, 10 of 1,536, 18 of 4,608.
+// How many of `grips` compared grips may differ: 1 of 1, 3 of 72, 6 of 400, 10 of 1,536, 18 of 4,608.
 std::uint64_t allowed_flips(std::uint64_t grips);
 
 // Whether a field is compared number by number. In a scene with strengths a hold force is an effort of a state, which the core computes

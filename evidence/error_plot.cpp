@@ -15,10 +15,10 @@ namespace wholehand {
 namespace {
 
 constexpr double FRONT_LEFT = 46, FRONT_RIGHT = 440, FRONT_HEIGHT = 330, FRONT_SCALE = 1.35;  // units of the plot; pixels a unit
-constexpr double NAMES_LEFT = FRONT_RIGHT + 22, NAMES_STEP = 14;                              // of what stands beside it
+constexpr double NAMES_LEFT = FRONT_RIGHT + 22, NAMES_STEP = 14;                              // of what is beside it
 constexpr double LEAST_ERROR_SHOWN = 1e-9;  // of the axis' unit: where an error of 0 stands
 
-// Colours that colour-blind readers tell apart, and a mark of its own for each.
+// Colours that colour-blind readers distinguish, and a mark of its own for each.
 struct FrontGroup {
   const char* name;
   bool on_core;

@@ -183,8 +183,8 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
   if (comparable.outcomes) row.feasible_flips = feasible_flips;
   if (!comparable.pose) return;
   row.touch_flips = touch_flips;
-  // what a point at rest where the reference has it may be told wrongly. A tolerance looser than the precision's named one is no
-  // excuse, and fingers that came to rest elsewhere are none
+  // how wrong a point may be that rests where the reference has it. Neither a tolerance looser than the precision's named one nor
+  // fingers that came to rest elsewhere are an excuse
   const Allowance allowed = allowance(row.variant.precision);
   double reach = 0;
   for (const VesselData& vessel : scene_.vessels) reach = std::max(reach, 0.1 * scene_.hand.scale + vessel.height);

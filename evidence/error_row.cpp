@@ -23,7 +23,7 @@ ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std
   std::vector<std::size_t> order(errors.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto value = [&](std::size_t i) { return std::isnan(errors[i]) ? std::numeric_limits<double>::infinity() : errors[i]; };
-  // of equally bad ones the first
+  // stable: the first of equally bad ones
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return value(a) < value(b); });
   const auto rank = [&](double share) {
     const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size())));

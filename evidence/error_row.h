@@ -51,9 +51,9 @@ struct TimeFigures {
   double median = 0, spread = 0;  // s; the spread is between the quartiles
 };
 
-// Of a variant: in units of the base's median beside it (runs interleaved with the variant's), times the base's median over all its
-// runs, so that a machine that is slower for minutes makes nobody slow who is timed then. Without a base, or one that took no time:
-// as they are.
+// A variant's times in units of the base's median beside it (runs interleaved with the variant's), times the base's median over all
+// its runs: a machine that is slower for minutes does not count against the variant timed then. Unscaled without a base, or where it
+// took no time.
 TimeFigures time_figures(std::vector<double> runs, const std::vector<double>& base_beside = {},
                          const std::vector<double>& base_all = {});
 

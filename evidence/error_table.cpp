@@ -48,7 +48,7 @@ std::string force_error_text(double newtons) {
 using ErrorOf = double (ErrorRow::*)() const;
 using ErrorText = std::string (*)(double);
 
-// The fastest, or the first of the table that the spread of the runs does not tell from it: variants come after what they vary.
+// The fastest, or the first of the table that is as fast within the spread of the runs: variants come after what they vary.
 const ErrorRow* fastest_under(const std::vector<ErrorRow>& rows, ErrorOf error, double limit) {
   const ErrorRow* best = nullptr;
   for (const ErrorRow& row : rows)
@@ -118,7 +118,7 @@ std::string counted_variants(const std::vector<ErrorRow>& rows, const std::funct
   return text;
 }
 
-// What the errors alone do not tell: grips that were not compared, and answers on one side alone.
+// What the errors alone do not show: grips that were not compared, and answers on one side alone.
 std::string flip_lines(const std::vector<ErrorRow>& rows, const ErrorContext& context) {
   std::string text;
   std::uint64_t compared = 0;

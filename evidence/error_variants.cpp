@@ -60,7 +60,7 @@ class VariantList {
   bool quick() const { return choice_.quick; }
   bool has_states() const { return scene_.liquid.has_value() && !scene_.tilts.empty(); }
 
-  // Those that read outlines.
+  // The sides that read outlines.
   std::vector<VariantSide> with_outlines(bool with_core_float, bool with_device_double) const {
     std::vector<VariantSide> sides{core_};
     if (with_core_float) sides.push_back(core_float_);

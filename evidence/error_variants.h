@@ -20,7 +20,7 @@ struct Comparable {
   bool outcomes = true;  // whether a grip is feasible
 };
 
-// What of the approximations is swept, for the convergence that is fitted; `step` is what the error should be a power of.
+// The approximation that is swept, for the fit of its convergence; `step`: the error should be a power of it.
 enum class SweptAxis { none, lattice, tolerance, gap_table, points, effort };
 
 struct ErrorVariant {

@@ -52,7 +52,7 @@ double largest_difference(int field, const Scene& scene, const GatheredPlanes& a
   return largest;
 }
 
-// What one backend says of a case, vessel by vessel, beside what the core says in double.
+// One backend's answer to a case, vessel by vessel, beside the core's in double.
 class ExtremeTally {
  public:
   // `is_truth`: the backend is the core in double itself
@@ -66,7 +66,7 @@ class ExtremeTally {
     row_.precision = info.precision;
   }
 
-  // Iterations, which only an evaluator that is called grip by grip tells.
+  // Iterations, which only an evaluator that is called grip by grip reports.
   void count_steps(const Evaluator& core, std::size_t vessel, const std::vector<GripInput>& grips) {
     for (const GripInput& grip : grips) {
       GripResult result;

@@ -37,7 +37,7 @@ struct ExtremeRow {
   std::uint64_t grips = 0, feasible = 0, implausible = 0, grazing = 0;
   std::array<std::uint64_t, 7> reasons{};                                   // by Reason; none: feasible
   std::uint64_t blocked = 0, unsettled_fingers = 0, unsettled_proxies = 0;  // grips
-  int trace_steps = -1, advance_steps = -1;  // largest of a trace and of a finger's stage; -1: a device, which does not tell
+  int trace_steps = -1, advance_steps = -1;  // largest of a trace and of a finger's stage; -1: a device, which reports none
   double gap = 0, separation = 0, posed = 0, proxy = 0, center_of_mass = 0;  // m; that of vessel and liquid
   double volume = 0, torque = 0, feedback = 0, hold = 0;                     // m3, N m, N, N
   double table_depth = 0, self_depth = 0;                                    // m
@@ -53,7 +53,7 @@ struct ExtremeRow {
 // Core in double and in float; device in float, and in double where it can. Throws Error as open_backend does.
 std::vector<ExtremeRow> evaluate_extreme(const ExtremeCase& extreme, const ExtremeOptions& options = {});
 
-// CSV: a head, and one line a row; units stand in the names of the columns.
+// CSV: a head, and one line a row; units are in the names of the columns.
 std::string extreme_csv(const std::vector<ExtremeRow>& rows);
 
 }  // namespace wholehand

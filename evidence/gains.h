@@ -11,7 +11,7 @@ namespace wholehand {
 // The largest gains at a rate that settle on the lightest devices of the reports that have a damping of 1 N s/m and more, at the device, N/m.
 // K: the linear limit of a wall without delay. k_open: the smallest that simulation finds for users who react after 60 to 90 ms, with the
 // gripper of GripLoop and the lightest finger; their delayed answer takes up to a sixth of what the sampled spring alone would bear. A
-// heavier or more damped device bears more: `stability wall` tells.
+// heavier or more damped device bears more: see `stability wall`.
 struct GainLimits {
   double stiffness = 0;  // K of the virtual coupling, for its damping B
   double k_open = 0;

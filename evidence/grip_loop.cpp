@@ -196,7 +196,7 @@ std::vector<GripLoopRow> grip_loop_rows(bool quick) {
       loop.*axis.value = value;
       rows.push_back({axis.name, loop, {}});
     }
-  // the products: how the force is rendered against who holds it
+  // the products: how the force is rendered, against the user
   const int step = quick ? 2 : 1;
   const std::vector<Varied>& list = varied();
   const auto every = [step](const std::vector<double>& values) {

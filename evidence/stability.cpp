@@ -196,7 +196,7 @@ void write_gains(std::string& out) {
   }
 }
 
-// What of the extreme scenes is not as it must be: nothing missing anywhere, and double on the device as in the core.
+// Number of wrong rows of the extreme scenes: no value may be missing, and double on the device must agree with the core.
 std::size_t wrong_rows(const std::vector<ExtremeRow>& rows) {
   return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [](const ExtremeRow& row) {
     return row.misplaced > 0 || (row.precision == Precision::full && !row.holds);

@@ -24,7 +24,7 @@ struct WallDevice {
 // Largest stiffness of the wall, N/m; infinite where nothing limits it.
 struct WallLimits {
   double simulated = 0;  // up to which a press against the wall settles
-  double passive = 0;    // b > K T / 2 + |B|: whoever holds the device (Colgate & Schenkel)
+  double passive = 0;    // b > K T / 2 + |B|: for any user (Colgate & Schenkel)
   double linear = 0;     // the sampled loop's eigenvalues within the unit circle, the finger included
   double coulomb = 0;    // min(2 b / T, 2 f_c / D) (Abbott & Okamura); the second where D > 0
 };

@@ -86,7 +86,7 @@ PlotLayer area_layer(bool settled) {
   return layer;
 }
 
-// To whole decades about the boxes.
+// Sets the axis to whole decades about the boxes.
 void set_decades(PlotAxis& axis, const std::vector<PlotLayer>& layers) {
   double least = INFINITY, most = 0;
   for (const PlotLayer& layer : layers) {

@@ -50,7 +50,7 @@ const std::vector<NamedDevice>& wall_devices();
 // integrators; and devices, fingers, walls and rates by chance, each 1 % below and above its linear limit. About 500,000 points, a quick
 // run 11,000.
 std::vector<WallSheet> wall_sheets(bool quick, std::uint64_t seed);
-// Fills in the energies and `simulated`. Asks `go_on` every some thousand points, which it tells how many are done; false where it says no.
+// Fills in the energies and `simulated`. Calls `go_on` with the number of points done every some thousand points; false where it says no.
 bool run_walls(
     std::vector<WallSheet>& sheets, const WallRunner& runner,
     const std::function<bool(std::size_t done)>& go_on = [](std::size_t) { return true; });

@@ -95,7 +95,7 @@ std::vector<Flat> DepthMap::follow_border(int column, int row, std::vector<bool>
     if (heading == 0) seen[static_cast<std::size_t>(at[1]) * columns_ + at[0]] = true;
     const std::array<int, 2>&ahead = HEADINGS[heading], &aside = HEADINGS[(heading + 1) % 4];
     at = {at[0] + ahead[0], at[1] + ahead[1]};
-    // of the four pixels at this corner the two ahead: the middle of one lies half a step ahead and half a step aside
+    // the two pixels ahead of the four at this corner: the middle of one lies half a step ahead and half a step aside
     const auto pixel_ahead = [&](int side) {
       const int x = 2 * at[0] + ahead[0] + side * aside[0], y = 2 * at[1] + ahead[1] + side * aside[1];
       return is_covered((x - 1) / 2, (y - 1) / 2);

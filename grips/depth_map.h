@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-using Flat = std::array<double, 2>;  // a place in a view or on a sheet: to the right, and up or down as is said there
+using Flat = std::array<double, 2>;  // a place in a view or on a sheet: to the right, and up or down as noted there
 
 class DepthMap {
  public:

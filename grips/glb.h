@@ -24,7 +24,7 @@ inline constexpr std::string_view GRIP_GLB_MARK = "\"generator\":\"wholehand";
 //       vessel, liquid   meshes; the liquid of the first of the report's states that has any, its level surface in the upright vessel
 //       wrist  and the 24 joints of the posed hand by hand_nodes' names, nested along each finger, each with its bone, the rounded
 //              cone through the radii of both joints; its child `<joint> contact` is a ball a little larger than the joint, coloured by
-//              its state, which `extras` tell
+//              its state, which is in `extras`
 // While the animation runs the liquid is shown at its own tilt and hidden at others. Radii below 1.5 mm are drawn as 1.5 mm.
 // Throws Error: (usage) where the grip is not feasible, (failure) where the vessel's mesh has not been read.
 std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& report, int segments = GLB_SEGMENTS);

@@ -24,7 +24,7 @@ std::vector<std::size_t> asked_tilts(const Scene& scene, std::size_t vessel, con
   return std::vector<std::size_t>(axes.fills.size(), axes.tilts.size());
 }
 
-// What the planes of such a state hold.
+// Sets the values that the planes of a left-out state have.
 void leave_out(GripState& state) {
   constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
   StateResult& forces = state.state;
@@ -69,7 +69,7 @@ struct GripPlanes {
   double real(int field, std::size_t k = 0) const { return reals[fields.plane[field] + k]; }
 };
 
-// What the grip's planes say of the efforts over the scene's states; `told(field)`. Nothing of an implausible grip.
+// The efforts over the scene's states, from the grip's planes by `told(field)`. Nothing for an implausible grip.
 template <class Told>
 std::optional<GripHold> hold_of(const Scene& scene, std::size_t vessel, const Told& told) {
   if (!has_effort(scene) || std::isnan(told(FIELD_WORST_EFFORT))) return std::nullopt;

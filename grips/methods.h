@@ -30,7 +30,7 @@ struct GripHold {
   int states = 0, skipped = 0, pivots = 0;
 };
 
-// Everything that is told of one grip. `states` and `score` are empty where the grip is not feasible.
+// All results for one grip. `states` and `score` are empty where the grip is not feasible.
 struct GripFindings {
   GripResult result;
   std::vector<GripState> states;  // fill-major, in the order asked

@@ -102,7 +102,7 @@ class WrenchSet {
   std::vector<ContactPoint> contacts_;
 };
 
-// Whether W spans all six dimensions, by its corners: the longest is taken off all others, six times.
+// Whether W lacks one of the six dimensions, by its corners: projects the longest out of all others, six times.
 bool is_flat(std::vector<Point6> points) {
   double size = 0;
   for (int dimension = 0; dimension < 6; ++dimension) {
@@ -193,7 +193,7 @@ void narrow(std::array<double, 2>& bracket, const std::array<double, 2>& by) {
   bracket = {std::max(bracket[0], by[0]), std::min(bracket[1], by[1])};
 }
 
-// What the support along the axes alone says.
+// Bounds by the support along the axes alone.
 WrenchQuality boxed(const WrenchSet& set) {
   WrenchQuality quality{{0, HUGE_VAL}, {0, 1}};
   for (std::size_t k = 0; k < 6; ++k) {

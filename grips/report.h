@@ -34,7 +34,7 @@ struct GripReport {
 GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripInput& grip, const StateAxes& axes,
                             const GripMethods& methods);
 
-// What holding takes of the whole hand: over the scene's states as the grip's own evaluation has it, and state by state by the core in double,
+// Adds the efforts of the whole hand: over the scene's states from the grip's own evaluation, and state by state by the core in double,
 // whatever device answered. Does nothing for an infeasible grip.
 void add_holding(GripReport& report, const Scene& scene, std::size_t vessel);
 // The same with an evaluator that was made for `scene` before: for many grips of it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a grip its drawings and tables show: how its points are told apart, and which of its states.
+// What the drawings and tables of a grip show: labels of its points, and which of its states.
 #pragma once
 
 #include <array>

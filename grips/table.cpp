@@ -29,7 +29,7 @@ std::string millimetres(const GripReport& report, double length) { return known(
 
 const char* yes_no(bool value) { return value ? "yes" : "no"; }
 
-// A hold force that comes from an effort is known to a thousandth: more digits would tell two searches for one state apart.
+// A hold force that comes from an effort is known to a thousandth: more digits would show two searches for one state as different.
 std::string hold_newtons(double force, const GripReport& report) {
   return !std::isfinite(force) ? "infinite" : report.hold ? fmt::format("{:#.3g}", force) : known(report, force, 4);
 }
@@ -154,7 +154,7 @@ std::string contact_name(const HeldContact& contact) {
   return JOINT_NAMES[contact.joint].paper + place + (contact.digit == FINGER_COUNT ? ", palm" : "");
 }
 
-// What does not come from what answers the rest.
+// Names the numbers that come from the core where another device answers the rest.
 void write_holding_source(std::string& out, const GripReport& report) {
   if (report.answer.is_core_double || report.holds.empty()) return;
   append_formatted(out, "\n  from the core  in double, for the hand above: hold forces, listed effort and contact forces{}\n",
@@ -236,7 +236,7 @@ void write_score(std::string& out, const GripReport& report) {
   }
 }
 
-// What of the hand and the vessel fails first, and by how much.
+// Whether hand or friction fails first, and by how much.
 std::string first_to_fail(const Scene& scene, const GripHold& hold) {
   const char* fails = hold.worst <= 1 ? "would fail" : "fails";
   if (friction_fails_first(scene, hold.worst, hold.friction_needed)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of the devices is meant.
+// Chooses the requested device.
 #include "host/device_info.h"
 
 #include <algorithm>

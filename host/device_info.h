@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vulkan devices: which are there, and which of them is meant. The loader is opened at run time, so a machine without Vulkan gets a
+// Vulkan devices: a list, and the choice of the requested one. The loader is opened at run time, so a machine without Vulkan gets a
 // sentence and not a dynamic linker's complaint.
 #pragma once
 

@@ -182,7 +182,7 @@ Point5 load_point(const double* load, double sine, double cosine, const Paramete
 
 }  // namespace
 
-// The worst state is mostly a full one far over: those come first, so that the others are soon passed by.
+// The worst state is mostly a full one far over: those come first, so that the others are soon skipped.
 EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel, const std::vector<double>& loads) {
   EffortStates found;
   std::vector<Point5> points;

@@ -62,7 +62,7 @@ struct StreamOptions {
   std::size_t item_multiple = 64;
   std::size_t slot_bytes = std::size_t(64) << 20;  // of all buffers of one chunk in flight
   std::size_t slots = 0;        // chunks in flight; 0: 2 with unified memory, else 3 (one in each direction, one computing)
-  double timeout_seconds = 10;  // beyond the expected time of a chunk: the device is taken for hung
+  double timeout_seconds = 10;  // beyond the expected time of a chunk: the device counts as hung
   std::function<SubmitFault(std::size_t submit)> inject;  // tests: what becomes of the n-th submit of the stream
 };
 

@@ -28,7 +28,7 @@ struct GripLoops {
 constexpr std::int64_t grip_turns(const GripSteps& steps, const GripLoops& loops) {
   const std::int64_t distance = loops.looped_elements > 0 ? loop_turns(loops.looped_elements) : 0, places = 3 * (loops.between + 1);
   const std::int64_t proxy = loops.proxies ? loop_turns(PROXY_STEPS, 2 * distance) + distance : 0;
-  // a finger looks at all places before each of four stages and once at rest; in pose paper it moves three points instead
+  // a finger evaluates all points before each of four stages and once at rest; in pose paper it moves three points instead
   const std::int64_t rest = std::max(loop_turns(4 * (steps.advance + 1) + 5 * places, distance),
                                      loop_turns(3, distance + loop_turns(steps.advance, distance)));
   const std::int64_t examine = loop_turns(5, 3 * distance + proxy);

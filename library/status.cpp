@@ -14,7 +14,7 @@ namespace {
 // Has a fixed length, so that it can report a failure for lack of memory.
 thread_local char message[2048] = "";
 
-// What the program says of its options, the C face says of its arguments.
+// Remedies in the words of the C face: arguments where the program names options.
 const char* remedy_words(Remedy remedy) noexcept {
   switch (remedy) {
     case Remedy::core:

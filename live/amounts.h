@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of each liquid is where at a tick of a live session.
+// How much of each liquid is where at a tick of a live session.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What holding the vessel takes of the whole hand at a moment of a session: kernels 9 and 10 on the hand that is seen.
+// Efforts of the whole hand at a moment of a session: kernels 9 and 10 on the hand that is shown.
 #pragma once
 
 #include <array>

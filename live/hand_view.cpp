@@ -177,7 +177,7 @@ class View {
     return live_.hand.scale * live_.hand.radius[finger][joint - finger_start(finger)];
   }
 
-  static constexpr double NEARBY = 0.1;  // m: a vessel so near with both tips is told
+  static constexpr double NEARBY = 0.1;  // m: a vessel so near to both tips is reported
 
   const LiveScene& live_;
   const Tick& tick_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The whole hand as it is seen in a live session: what a tick tells of two fingertips, as 24 points of which none is inside the
-// glass.
+// The whole hand as a live session shows it: a tick's two fingertips, as 24 points of which none is inside the glass.
 #pragma once
 
 #include <array>
@@ -38,8 +37,8 @@ HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses
 
 constexpr double CLOSING_IN = 20e-3;  // m: nearer than this with both tips, fingers begin to come to the vessel (ours)
 
-// The liquid's surface in a vessel: the plane up . p = level, vessel frame, m. Nothing where there is no liquid. Of more than its
-// lip holds back at that tilt, what is above runs over: the surface is at the lip.
+// The liquid's surface in a vessel: the plane up . p = level, vessel frame, m. Nothing where there is no liquid. Liquid that the
+// lip does not hold back at that tilt runs over: the surface is at the lip.
 struct LiquidSurface {
   Triple up{};
   double level = 0;
@@ -59,7 +58,7 @@ std::optional<PouringStream> pouring_stream(const LiveScene& live, const Tick& t
 // a tick, m3.
 double target_level(const TaskData& task, double volume, double table);
 double target_volume(const Scene& scene, const Tick& tick);
-constexpr double TARGET_WALL = 1.8e-3;  // m, outside of its diameter (ours: a scene tells its mouth alone)
+constexpr double TARGET_WALL = 1.8e-3;  // m, outside of its diameter (ours: a scene has only its mouth)
 
 // y of what the vessels stand on at the start: the lowest of their lowest points.
 double table_height(const Scene& scene);

@@ -13,7 +13,7 @@ namespace wholehand {
 core_f64::Placement place_live_hand(const core_f64::Hand& hand, double closure, const core_f64::Mat3& rotation,
                                     core_f64::Vec3 middle, double scale, double& e1_x);
 // The hand with its tips at two contacts of a vessel that stands upright at `place` (all three in one frame; the answer is in the vessel's):
-// the gripper's axes, turned so that the first lies along the contacts. A gap beyond the hand's is taken for the nearest that it can make.
+// the gripper's axes, turned so that the first lies along the contacts. A gap beyond the hand's counts as the nearest that it can make.
 // Sets all that rest_hand needs but the contacts' angles. `e1_x` as above.
 core_f64::Closing close_live_hand(const core_f64::Hand& hand, const std::array<core_f64::Vec3, 2>& contacts, core_f64::Vec3 place,
                                   const core_f64::Mat3& rotation, double& e1_x);

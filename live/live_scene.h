@@ -18,13 +18,13 @@ struct LiveVessel {
   core_f64::ForceScale force;
   core_f64::Load largest;                // upright at the scene's largest fill, or its own if that is more
   std::vector<core_f64::Vec3> guidance;  // on its outer surface, vessel frame
-  core_f64::Vec3 home{};                 // where it stands at the start
+  core_f64::Vec3 home{};                 // its place at the start
   double radius = 0;                     // at its widest, m
   double volume = 0;                     // at the start, m3
 };
 
 // All that a session has that no tick changes. Throws Error (usage): no vessel or more than LIVE_VESSELS, a hand or a vessel that is
-// physically impossible, vessels that stand in each other.
+// physically impossible, vessels that overlap.
 struct LiveScene {
   explicit LiveScene(const Scene& scene);
   Scene scene;

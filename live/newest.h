@@ -8,8 +8,8 @@
 
 namespace wholehand {
 
-// One thread puts, one takes; neither ever waits for the other: no locks, no system calls, no allocation. Of three places each thread has
-// one to itself, and they exchange theirs for the third.
+// One thread puts, one takes; neither ever waits for the other: no locks, no system calls, no allocation. There are three slots: each
+// thread owns one and exchanges it for the third.
 template <class T>
 class Newest {
  public:

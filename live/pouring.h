@@ -13,9 +13,9 @@
 
 namespace wholehand {
 
-// Kernel 6 tells what a lip holds back at a tilt. The rest runs over it: an excess leaves with the time constant POUR_TIME (ours; a slow tilt
-// hardly has any), falls freely from the lip's lowest point, and arrives after the time of the fall if that point was above the target's
-// mouth, a level disc; else it is spilt. The sum of all is kept to rounding.
+// Kernel 6 computes what a lip holds back at a tilt. The rest runs over it: an excess leaves with the time constant POUR_TIME (ours; a slow
+// tilt hardly has any), falls freely from the lip's lowest point, and arrives after the time of the fall if that point was above the
+// target's mouth, a level disc; else it is spilt. The sum of all is kept to rounding.
 class Pouring {
  public:
   // World frame for the target. Without one all that pours is spilt.

@@ -74,7 +74,7 @@ Vec3 slide_along(Vec3 way, const std::array<Vec3, 2>& normals, int count) noexce
   return length_squared > 0 ? glm::dot(way, crease) / length_squared * crease : Vec3(0);
 }
 
-// Friction holds what slides as long as that is less than `friction` times the depth, and takes so much of it away where it is more.
+// Friction stops a slide of less than `friction` times the depth, and subtracts that much from a longer one.
 Heading heading_along(Vec3 way, const std::array<Vec3, 2>& normals, int count, double friction) noexcept {
   const Vec3 slide = slide_along(way, normals, count);
   const double length = glm::length(slide);
@@ -181,7 +181,7 @@ NearestVessel nearest_vessel(const Obstacles& obstacles, Vec3 point, double radi
   for (int v = 0; v < obstacles.count; ++v) {
     const auto& standing = obstacles.standing[v];
     if (!standing.is_solid) continue;
-    // its bounding sphere tells enough of one that is far off
+    // for a distant vessel its bounding sphere is enough
     const Vec3 center = standing.place + Vec3(0, standing.vessel->bound_height, 0);
     const double bound = glm::length(point - center) - standing.vessel->bound_radius - radius;
     if (bound > nearest.separation) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a program may ask of a session: the limits of a measurement that no gripper's guard has looked at.
+// What a program may ask of a session: the limits of a measurement that no gripper's guard has checked.
 #pragma once
 
 #include <cmath>

@@ -256,7 +256,7 @@ Session::Leaning Session::leaning_of(const Pose& vessel) const noexcept {
   return {is_upright ? across : Vec3(-up.x / sine, 0, -up.z / sine), sine, cosine};
 }
 
-// What runs out goes; the answer is what the vessel weighs with the rest.
+// Pours out what runs over; returns the weight of the vessel with the rest.
 core_f64::Load Session::run_liquid(const Pose& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept {
   const LiveVessel& live = live_->vessels[vessel_];
   const auto& [lean, sine, cosine] = leaning;
@@ -305,7 +305,7 @@ void Session::tell_held(const Pose& vessel, double mass, const core_f64::HeldFor
 
 bool Session::is_open(double device_gap) const noexcept {
   const std::array<double, 2> range = workspace_.device_gap();
-  // of a vessel that the hand can hardly span it takes half of what is left: its noise opens no fingers
+  // a vessel that the hand can hardly span takes half of the remaining gap: noise opens no fingers
   const double open = std::max(range[1] - OPEN_MARGIN * (range[1] - range[0]), 0.5 * (grasp_.device_gap + range[1]));
   return device_gap - grasp_.device_gap > live_->scene.live.slip || (device_gap >= open && device_gap > grasp_.device_gap);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One tick of a live session as plain data: what the gripper said, what the session made of it, and what the fingers felt. It travels
-// through the ring to whoever records or shows it, and a recording is a list of them.
+// through the ring to recorder and displays, and a recording is a list of ticks.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ constexpr int LIVE_VESSELS = 16;  // at most in a live scene
 // What a read gives: a value, nothing yet, or an error.
 enum class ReadOutcome : std::uint8_t { value, timeout, error };
 
-// What a gripper says of itself at one moment. Device frame: right-handed, +x to the right and +y up for the person who holds it, +z towards
+// A gripper's measurement at one moment. Device frame: right-handed, +x to the right and +y up for the person who holds it, +z towards
 // them. The gripper's own +x runs along its closing line: to the index finger of a right hand, to the thumb of a left hand; at
 // NO_ROTATION the palm faces away from the person (-z).
 struct GripperState {
@@ -82,7 +82,7 @@ struct Tick {
   double gap = 0;                       // of the hand, m
   double closure = 0;
   std::array<Triple, 2> tips{}, proxies{};  // thumb, index, m
-  // of the pose that is kept while held: which joints touch (bit j) and which fingers are used (bit f)
+  // the pose that is kept while held: which joints touch (bit j) and which fingers are used (bit f)
   std::uint32_t touch_mask = 0, used_mask = 0;
 
   // ---- the vessel that is touched, held or on its way back, world frame ----

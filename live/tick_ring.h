@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ticks on their way from the haptic thread to whoever records or shows them.
+// Ticks on their way from the haptic thread to recorder and displays.
 #pragma once
 
 #include <atomic>

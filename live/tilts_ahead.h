@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a held vessel will take of the hand at tilts that are still to come.
+// Efforts for a held vessel at tilts that are still to come.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct TiltAhead {
 
 constexpr double AHEAD_STEP = radians(10);   // between two tilts
 constexpr double MOST_AHEAD = radians(150);  // the last one
-constexpr double LEFT_AS_EMPTY = 0.05;       // of the liquid: what is left then is no longer looked at
+constexpr double LEFT_AS_EMPTY = 0.05;       // of the liquid: a vessel with less left counts as empty
 constexpr double LEANS_FROM = radians(5);    // a vessel that is tilted less has no side yet: it is that to which the scene pours
 constexpr std::size_t TILTS_AHEAD = 16;
 
@@ -28,7 +28,7 @@ struct TiltsAhead {
   std::array<TiltAhead, TILTS_AHEAD> tilts{};
   std::size_t count = 0;
 
-  // That of the largest effort on the side to which it leans; null where there is none.
+  // The tilt of the largest effort on the side to which the vessel leans; null where there is none.
   const TiltAhead* hardest() const;
   // The largest effort over the other side.
   double other_worst() const;

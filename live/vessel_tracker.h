@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where every vessel of a live session is. A tick tells only of the vessel that is touched, held or on its way back; the others stand where they were
-// seen last.
+// Where every vessel of a live session is. A tick has only the vessel that is touched, held or on its way back; the others are where they
+// were last.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ class VesselTracker {
   VesselPoses poses_{};
 };
 
-// Follows all ticks of a recording at once, and then tells of any moment.
+// Follows all ticks of a recording at once, and then knows any moment.
 class VesselHistory {
  public:
   // `ticks` must outlive it.
@@ -39,7 +39,7 @@ class VesselHistory {
   VesselPoses at(std::size_t tick) const noexcept;
 
  private:
-  // Ticks first .. last that tell of one vessel.
+  // Ticks first .. last that have one vessel.
   struct Stretch {
     std::size_t first = 0, last = 0;
   };

@@ -79,8 +79,8 @@ Digest lattice_digest(const CheckedMesh& mesh, const PreparedLattice& lattice) {
   return hash.digest();
 }
 
-// Of a lattice whose spacing is chosen. Where the tolerance alone decides it is the same with any memory that holds it (`most_bytes` 0);
-// else the memory is part of the wish.
+// Digest of a lattice whose spacing is chosen. Where the tolerance alone decides, the lattice is the same with any memory that holds it
+// (`most_bytes` 0); else the memory is part of the request.
 Digest choice_digest(const CheckedMesh& mesh, const LatticeWish& wish, int bits, std::uint64_t most_bytes) {
   Hash hash = hash_of(mesh);
   hash.add(wish.tolerance);

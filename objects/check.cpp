@@ -144,7 +144,7 @@ void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, M
   facts.widest_closed_hole = std::exchange(facts.widest_hole, 0);
 }
 
-// What an open mesh might do about it.
+// The remedy for an open mesh.
 std::string holes_text(const MeshFacts& facts) {
   if (facts.holes == 0) return ": close them for a sure answer.";
   const std::string holes = fmt::format(": {}, up to {} mm across, ", counted(facts.holes, "hole"), millimetres(facts.widest_hole));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is wrong with a mesh, said before it is used.
+// Checks a mesh before it is used.
 #pragma once
 
 #include <cstddef>
@@ -25,12 +25,12 @@ struct MeshFacts {
   bool closable = false;               // close_holes closes them all
   std::size_t closed_holes = 0;        // small ones that were closed
   double widest_closed_hole = 0;       // of these, m across
-  bool closed = false;          // each edge belongs to an even number of triangles: a ray's crossings tell inside from outside
-  bool oriented = false;        // each edge is used as often in one direction as in the other, give or take one
-  bool was_inside_out = false;  // all triangles were turned round
-  bool closes_nothing = false;  // holes were to be closed, and no edge is open
-  Triple low{}, high{};         // bounding box, m
-  double area = 0;              // m2
+  bool closed = false;                 // each edge belongs to an even number of triangles: a ray's crossings show what is inside
+  bool oriented = false;               // each edge is used as often in one direction as in the other, give or take one
+  bool was_inside_out = false;         // all triangles were turned round
+  bool closes_nothing = false;         // holes were to be closed, and no edge is open
+  Triple low{}, high{};                // bounding box, m
+  double area = 0;                     // m2
   double volume = 0;  // m3, > 0 where it is sure; of an open mesh, with each hole closed by a cone to the middle of all open edges
   Triple center_of_mass{};  // of that volume, m
 

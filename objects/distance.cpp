@@ -40,8 +40,8 @@ inline double segment_distance_squared(const glm::dvec3& from, const glm::dvec3&
   return glm::dot(off, off);
 }
 
-// To the plane where p stands over the inside, else to the nearest of the sides beyond which it stands; to all three of a triangle so
-// thin that its plane is rounding.
+// Squared distance to the plane where p is over the inside, else to the nearest of the sides beyond which p lies; to all three sides where
+// the triangle is so thin that its plane is rounding.
 double triangle_distance_squared(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, bc = c - b, ca = a - c, pa = p - a, pb = p - b, pc = p - c, normal = glm::cross(ca, ab);
   const double squared = glm::dot(normal, normal);
@@ -133,7 +133,7 @@ struct MeshQueries {
     const RayFrame* frame;
     int outward;  // crossings from inside to outside less the others
     int all;
-    bool doubtful;  // the ray meets an edge, as far as can be told
+    bool doubtful;  // the ray meets an edge, to rounding
   };
 
   static void bounds(const RTCBoundsFunctionArguments* asked) {

@@ -10,7 +10,7 @@
 
 namespace wholehand {
 
-// How inside is told from outside; see docs/mesh.md.
+// How inside is distinguished from outside; see docs/mesh.md.
 enum class MeshSign {
   crossings,  // closed, and all faces outward: signed crossings of a ray, inside where they do not cancel
   parity,     // closed, not all outward: inside where the crossings are odd
@@ -27,9 +27,9 @@ class MeshDistance {
   MeshDistance& operator=(const MeshDistance&) = delete;
 
   MeshSign sign() const;
-  // To the nearest triangle, m, in double precision, negative inside. `p`: vessel frame, m, finite.
+  // Distance to the nearest triangle, m, in double precision, negative inside. `p`: vessel frame, m, finite.
   double signed_distance(const Triple& p) const;
-  // Without its sign, >= 0. `nearest`: a triangle's number, from 0; the search is shorter where it is near. On return the nearest one's.
+  // The distance without its sign, >= 0. `nearest`: a triangle's number, from 0, near for a short search; on return the nearest one's.
   double distance(const Triple& p, std::uint32_t& nearest) const;
   bool is_inside(const Triple& p) const;
   // The solid angle under which p sees the surface from inside, over 4 pi: of a closed mesh 1 inside and 0 outside,

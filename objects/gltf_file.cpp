@@ -175,8 +175,8 @@ GltfChunks chunks_of(const MeshFile& file, std::string_view bytes) {
   return {bytes, {}, false};
 }
 
-// Before it is parsed: the parser's own way to be asked about each value looks at all values before it, so that a long list takes the square of
-// its length.
+// Checks the depth before the parser: the parser's own callback for each value scans all values before it, so that a long list takes
+// the square of its length.
 void check_depth(const MeshFile& file, std::string_view text) {
   int depth = 0;
   bool is_string = false;
@@ -233,7 +233,7 @@ void refuse_extensions(const MeshFile& file, const GltfJson& root) {
       const std::string name = entry.is_string() ? entry.get<std::string>() : "?";
       if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression")
         file.refuse(fmt::format("is compressed ({}), which is not read: export it without compression", name));
-      // they change what there is to touch, and files may use them without requiring them
+      // they change the surface, and files may use them without requiring them
       if (name == "EXT_mesh_gpu_instancing")
         file.refuse(fmt::format("has instances ({}), which are not read: make them real, then export", name));
       if (name == "KHR_node_visibility")

@@ -203,7 +203,7 @@ class SceneWalk {
     int node;
     glm::dmat4 placed;
   };
-  // What of a mesh makes triangles: counted once, however many nodes show it.
+  // The parts of a mesh that make triangles: counted once, however many nodes show it.
   struct MeshCount {
     std::vector<std::size_t> primitives;
     std::uint64_t triangles = 0, vertices = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What most likely is not meant in a mesh: its unit, and which way it stands.
+// Likely mistakes in a mesh: its unit, and which way is up.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ struct LengthUnit {
   double meters;
 };
 
-// Those of metres, centimetres, millimetres and inches in which a body of these numbers (its extents along x, y and z) is one that a hand can
-// hold: at most 400 mm large, of which it can span one side, and no smaller than 20 mm. The likeliest first: nearest to 150 mm.
+// The units among metres, centimetres, millimetres and inches in which a hand can hold a body of these extents along x, y and z: at most
+// 400 mm large, one side that a hand can span, and no smaller than 20 mm. The likeliest first: nearest to 150 mm.
 std::vector<LengthUnit> graspable_units(const Triple& numbers);
 
 struct SizeHint {

@@ -28,13 +28,13 @@
 namespace wholehand {
 namespace {
 
-constexpr double BESIDE = 1e-6;                                   // of a triangle's size: a side of it is looked at from there
+constexpr double BESIDE = 1e-6;                                   // of a triangle's size: how far off a side of it is probed
 constexpr double COARSEST_CELLS = 24;                             // along the longest side: where the search for a spacing starts
 constexpr double SPACING_STEP = 1.25;                             // from one try to the next
 constexpr double FEWEST_SAMPLES = 6 * 6 * 6;                      // with which lay_lattice lays any
 constexpr double SAME_SPACING = 1e-4;                             // relative: finer is not sought
 constexpr double FAR_FOR_HALVES = 32;                             // m: half of what they hold, as a lattice reaches beyond its mesh
-constexpr double TIMED_SECONDS = 0.2;                             // of a lattice's work, before its time is told
+constexpr double TIMED_SECONDS = 0.2;                             // of a lattice's work, before its time is estimated
 constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels count in 32 bits
 
 // Random points of the surface, as many a square metre everywhere; the same ones each time. Those that lie within are left out, where
@@ -107,7 +107,7 @@ Triple lattice_place(const PreparedLattice& lattice, int i, int j, int k) {
           lattice.origin[2] + lattice.spacing * k};
 }
 
-// Of a lattice that fits and a smaller spacing with which none does: the finest that fits.
+// The finest lattice that fits, between one that does and a smaller spacing that does not.
 PreparedLattice finest_lattice(const MeshFacts& facts, const LatticeWish& wish, PreparedLattice fits, double too_fine) {
   while (fits.spacing - too_fine > SAME_SPACING * fits.spacing) {
     const PreparedLattice between = lay_lattice(facts, wish, 0.5 * (fits.spacing + too_fine));
@@ -139,7 +139,7 @@ double value_without_samples(const MeshDistance& distance, const PreparedLattice
   return value;
 }
 
-// Whether the error is larger than that at any of the points: the others need not be looked at then.
+// Whether the error is larger than `tolerance` at any of the points; skips the others then.
 bool any_error_above(const std::vector<Triple>& points, int threads, double tolerance,
                      const std::function<double(const Triple&)>& value_at) {
   std::atomic<bool> found{false};

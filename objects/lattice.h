@@ -18,11 +18,11 @@ struct LatticeWish {
   std::optional<double> spacing;  // m, > 0; absent: as wide as `tolerance` allows
   double tolerance = 0.25e-3;     // m, for the error at the surface
   double margin = 0;              // m beyond the mesh that the lattice reaches, and two cells more
-  // Of a sample, 16 or 32. Absent: 32 as long as the samples then take at most half of `most_bytes`, else 16; but always 32 where the mesh
+  // Bits of a sample, 16 or 32. Absent: 32 while the samples then take at most half of `most_bytes`, else 16; but always 32 where the mesh
   // and its margin are 32 m or more across, as halves end at 63.97 m.
   std::optional<int> bits;
-  // Of the samples: what memory and the device's largest buffer allow. Of what the machine has, rather than of what is free just now:
-  // where it decides, another value means another lattice.
+  // Upper limit on sample memory: what memory and the device's largest buffer allow. Uses installed, not free, memory so that the
+  // lattice is reproducible.
   std::size_t most_bytes = 512u << 20;
   int threads = 0;  // 0: all cores
 };

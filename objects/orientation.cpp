@@ -235,7 +235,7 @@ class Doubles {
       }
     });
     const auto normal_of = [&](std::uint32_t sheet) { return glm::normalize(all_.patches[backs_[sheet]].area); };
-    // of the sheet that is the root: edges that need one side, less the others, and whether it is more than a flat sheet alone
+    // for each root sheet: edges that need one side, less the others, and whether it is more than a flat sheet alone
     std::vector<std::int64_t> needed(backs_.size());
     std::vector<bool> is_body(backs_.size());
     for_each_edge(uses_, [&](std::span<const EdgeUse> edge) {

@@ -38,7 +38,7 @@ struct EdgeUse {
   bool is_forward;  // runs from low to high
 };
 
-// Those of one edge are together, in the order of the triangles.
+// The uses of all edges. Those of one edge are together, in the order of the triangles.
 std::vector<EdgeUse> edge_uses(const std::vector<Corners>& triangles);
 
 // Calls `visit` with all uses of an edge, for each edge.

@@ -140,7 +140,7 @@ std::string mass_text(const VesselData& vessel, const MeshBody& body) {
                                      : "; a solid object, without liquid: it has no inner_outline");
 }
 
-// Takes volume and centre of mass from the mesh; from its lattice where the triangles do not tell them: they cannot all face outward, a wall
+// Takes volume and centre of mass from the mesh, or its lattice where triangles do not determine them: they cannot all face outward, a wall
 // ends within the body, or bodies overlap, so that the sum over triangles counts some parts twice. Returns the sentence that says so, else "".
 std::string set_volume(const MeshFacts& facts, const std::string& name, bool has_mass, MeshBody& body) {
   body.volume = facts.volume;

@@ -6,7 +6,7 @@
 
 namespace wholehand {
 
-// Whose numbers: the same for any order of asking, and of no other name. Of a person: experiment 0, grasp 0.
+// Names a stream of numbers: independent of the order of asking and of other names. A person's own has experiment 0, grasp 0.
 struct DrawName {
   std::uint64_t seed = 0;
   std::uint64_t person = 0;

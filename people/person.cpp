@@ -86,7 +86,7 @@ Traits draw_grasp(const PeopleData& people, const Person& person, std::uint64_t 
   const DrawName name{seed, number, experiment + 1, grasp + 1};
   Traits traits{};
   for (std::size_t k = 0; k < TRAIT_COUNT; ++k) {
-    // of something above 0 the deviation is a share of the person's own
+    // the deviation of a positive trait is a share of the person's own
     const double own = person.traits[k], share = trait_facts()[k].is_positive ? own / people.traits[k].mean : 1;
     traits[k] = trait_of(people, k, own, share * people.traits[k].grasp, drawn(name, k));
   }

@@ -6,8 +6,8 @@
 
 namespace wholehand {
 
-// Throws Error (failure) where fewer than so many further files can be open at once: libraries that find none left say something else, or
-// nothing.
+// Throws Error (failure) where fewer than `needed` further files can be open at once: libraries that find none left report something
+// else, or nothing.
 void check_open_files(std::size_t needed);
 
 }  // namespace wholehand

@@ -17,7 +17,7 @@ const char* remedy_words(Remedy remedy);
 // The whole line for the user, without anything that steers a terminal.
 std::string line_of(const Error& error);
 
-// What of the scene is beyond float's domain (domain_warnings), a line each, with the remedy: printed to stderr and returned.
+// Prints to stderr and returns what exceeds float's domain in the scene (domain_warnings), a line each, with the remedy.
 // Throws as domain_warnings does.
 std::vector<std::string> say_float_warnings(const Scene& scene, Precision precision);
 

@@ -20,7 +20,7 @@ void silence_missing_cache() {
   if (error) setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
 }
 
-// Lavapipe computes on vectors of 256 bits unless told otherwise, also where the CPU has 512. Measured with 512: 10 to 15 % less
+// Lavapipe computes on vectors of 256 bits by default, also where the CPU has 512. Measured with 512: 10 to 15 % less
 // CPU time where products dominate, the same where square roots and divisions do. (To compare, switch Mesa's disk cache off with
 // MESA_SHADER_CACHE_DISABLE=true: it hands out what was compiled for another width.)
 void widen_vectors() {

@@ -35,7 +35,7 @@ class GripColumns {
   // Throws Error (usage) with the first number that no grip may have, its column, its place and what is allowed. Ends early on `stop`,
   // which another thread may set.
   void check(const std::atomic<bool>& stop) const;
-  // Of a request: grip i of the plan is row i.
+  // The rows as a request's grips: grip i of the plan is row i.
   GripSource source() const;
 
  private:

@@ -25,7 +25,7 @@ namespace py = pybind11;
 namespace wholehand {
 namespace {
 
-constexpr std::chrono::milliseconds SIGNALS_EVERY{50};  // between two looks at Ctrl-C
+constexpr std::chrono::milliseconds SIGNALS_EVERY{50};  // between two checks for Ctrl-C
 
 // Where the values of one variable go: an array of (grips, values of a grip), C-contiguous.
 struct Output {

@@ -54,7 +54,7 @@ GripNumbers grip_between(const std::array<double, 3>& thumb, const std::array<do
   return numbers_of(grip_through(point(thumb, "--thumb-mm"), point(index, "--index-mm"), turn, scale));
 }
 
-// What is asked beside the grip. Fills are fractions; volumes in mL stand instead of them.
+// What is asked beside the grip. Fills are fractions; volumes in mL replace them.
 struct StateWish {
   std::optional<std::vector<double>> fills, volumes, tilts;
 };

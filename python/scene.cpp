@@ -188,7 +188,7 @@ bool repeats_azimuths(const SceneHandle& handle, const std::vector<std::string>&
   return Plan(handle.described(), keeps_vectors(variables)).copies() > 1;
 }
 
-// Of whose grips a sweep makes a list each.
+// Number of hand scales; a sweep makes a list of the grips of each.
 std::size_t hand_scales(const SceneHandle& handle) { return Plan(handle.described(), false).hand_scales(); }
 
 py::list variable_rows(SceneHandle& handle) {

@@ -47,7 +47,7 @@ class SceneHandle {
   std::shared_ptr<const Evaluator> core();
   // Kept for the same wish, a few of them.
   std::shared_ptr<Batch> batch(const BatchWish& wish);
-  // What the program would say of the scene on standard error, a line each.
+  // What the program would print about the scene on standard error, a line each.
   std::vector<std::string> notes();
   // The same of float's domain, with the remedy; empty in double.
   std::vector<std::string> float_notes(Precision precision);

@@ -3,7 +3,7 @@
 // where everything lies, then the fixed variables, then records that are only ever appended. Everything in it is big-endian.
 //
 // Not the NetCDF library, because a recording must stay readable when its process is killed or its disk fills up in the middle of a
-// record, and because a file that somebody else made must not be able to do harm: the library buffers, and it trusts headers.
+// record, and because a foreign file must not be able to do harm: the library buffers, and it trusts headers.
 #pragma once
 
 #include <bit>

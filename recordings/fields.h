@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a tick stands in a recording, and how.
+// The fields of a tick that a recording has, and their encoding.
 #pragma once
 
 #include <cstddef>

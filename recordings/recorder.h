@@ -28,7 +28,7 @@ class Recorder {
   // Called on the recorder's thread with each batch of ticks, all of them in their order (a status line, say). Must not throw.
   using Observer = std::function<void(std::span<const Tick>)>;
 
-  // Without a writer it only drains and shows. `interval`: between two looks into the ring; shorter for who displays what he observes.
+  // Without a writer it only drains and shows. `interval`: between two looks into the ring; shorter with a display.
   Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer = {},
            std::chrono::microseconds interval = DRAIN_INTERVAL);
   // Stops; a recording that was not stopped before gets an end without timing.
@@ -61,7 +61,7 @@ class Recorder {
   std::mutex mutex_;  // of the next three; the thread that pushes knows nothing of it
   std::condition_variable wake_;
   bool is_stopping_ = false;
-  std::optional<std::string> trouble_;  // until somebody asks
+  std::optional<std::string> trouble_;  // until it is read
 
   std::thread thread_;  // last: it uses all of the above
 };

@@ -181,7 +181,7 @@ std::string session_picture(const Recording& recording, const SessionReport& rep
                                      line_layer("normal force", okabe_ito::VERMILION, "5 3", series_points(recording, NORMAL))};
   force.layers.insert(force.layers.end(), lines.begin(), lines.end());
   Plot tilt = session_panel(recording, report, time, "tilt (\u00b0)", {TILT});
-  // of a damaged recording a tilt may be any number: the axis then finds ticks of its own
+  // a damaged recording may have any number as a tilt: the axis then finds its own ticks
   if (tilt.y.high - tilt.y.low <= 720)
     for (double tick = 30 * std::ceil(tilt.y.low / 30); tick <= tilt.y.high; tick += 30) tilt.y.ticks.push_back(tick);
   tilt.layers.push_back(line_layer("", okabe_ito::BLACK, "", series_points(recording, TILT)));

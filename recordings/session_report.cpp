@@ -9,7 +9,7 @@
 namespace wholehand {
 namespace {
 
-// Nearest rank: the smallest value that so many of all do not exceed. `values` in any order; none: zeros.
+// Nearest rank: the smallest value that the wanted share of all do not exceed. `values` in any order; none: zeros.
 Percentiles percentiles_of(std::vector<double> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());

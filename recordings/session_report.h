@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a recorded session says about the one who gripped: grasp by grasp, by vessel and over all. docs/session.md has every definition.
+// Statistics of a recorded session: grasp by grasp, by vessel and over all. docs/session.md has every definition.
 #pragma once
 
 #include <array>

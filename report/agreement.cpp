@@ -48,7 +48,7 @@ Scene scene_of_vessel(const Scene& scene, std::size_t vessel) {
   return one;
 }
 
-// Fields of the reals that the file has something of. The tilts that are told can be judged by the forces of all states alone.
+// Real fields of which the file has a variable. Reported tilts can be judged only where the file has the forces of all states.
 std::vector<int> fields_of_file(const SweepResult& result, const Scene& scene) {
   const bool has_states =
       result.find("feedback_force") && result.find("normal_force") && (has_effort(scene) || result.find("hold_force"));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t MOST_LINES = 8;
 
-// What is said of one fill's line to those who do not see it.
+// One fill's line in words, for those who do not see it.
 std::string line_text(const Scene& scene, const std::string& fill, const std::vector<double>& values) {
   const auto largest = std::max_element(values.begin(), values.end());
   return fmt::format("{}: {} N at {}°, at most {} N at {}°", fill, shown_number(values.front(), 2),

@@ -24,7 +24,7 @@ void write_forces(MarkupWriter& html, const ReportSource& source, std::size_t ve
 // The tilts at which pouring starts.
 void write_pouring(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id);
 
-// Of many fills, so many as lines that are told apart: the first, the last, and some between.
+// The fills that a chart draws: as many as its lines can be distinguished, with the first and the last.
 std::vector<std::size_t> shown_fills(std::size_t count);
 
 }  // namespace wholehand

@@ -169,7 +169,7 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
     html.element("p", fmt::format("{} of the best grips cannot be drawn: {}.", drawn == 0 ? "The first" : "Some", trouble));
 }
 
-// What holds the grips and what limits them, by the core. Nothing without tells_efforts.
+// How the grips hold and what limits them, by the core. Nothing without tells_efforts.
 void write_limits(MarkupWriter& html, const ReportSource& source, std::size_t list, const std::vector<RankedReport>& reports) {
   const std::string name = list_name(source.scene, source.plan, list);
   const std::size_t drawn = std::min(DRAWN_GRIPS, reports.size());
@@ -222,7 +222,7 @@ std::string front_and_side(const std::string& drawing) {
 ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
   const std::size_t scales = source.plan.hand_scales(), vessel = list / scales;
   std::vector<RankedCandidate> ranked;
-  // of the sweep's own list
+  // only the sweep's own list has them
   std::vector<std::optional<RefinedGrip>> refined;
   std::vector<RobustScore> robust;
   if (source.lists) {
@@ -270,7 +270,7 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
   }
   std::vector<RankedReport> reports;
   if (source.core) {
-    // all of them are told of where there are efforts, and otherwise the drawn ones alone are needed
+    // where there are efforts all are reported, otherwise only the drawn ones
     const std::size_t asked = tells_efforts(source.scene) ? best.grips.size() : std::min(DRAWN_GRIPS, best.grips.size());
     for (std::size_t k = 0; k < asked; ++k) {
       reports.push_back({best.grips[k].rank, grip_with_holding(source, list / scales, best.grips[k].grip)});

@@ -13,8 +13,8 @@ namespace wholehand {
 
 constexpr std::size_t DRAWN_GRIPS = 3, TABLED_GRIPS = 50;
 
-// The first TABLED_GRIPS of a list of grips (GripLists). Their ranks, scores and places are the list's; what else is told of them is the core's, in double
-// precision, where there is one (is_whole).
+// The first TABLED_GRIPS of a list of grips (GripLists). Their ranks, scores and places are the list's; all else is the core's, in
+// double precision, where there is one (is_whole).
 struct ReportedGrips {
   std::vector<BestGrip> grips;  // the best first
   std::size_t listed = 0;       // in all

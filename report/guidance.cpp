@@ -41,7 +41,7 @@ bool has_empty_bin(const GuidanceStatistics& statistics) {
   return std::any_of(statistics.bins.begin(), statistics.bins.end(), [](const DistanceBin& bin) { return bin.grips == 0; });
 }
 
-// The highest of a chart's shares, to a whole ten, so that small ones are told apart.
+// The highest of a chart's shares, rounded up to a whole ten, so that small ones remain distinct.
 double highest_share(const FieldChart& chart) {
   const double highest = *std::max_element(chart.values.begin(), chart.values.end());
   return std::max(10.0, 10 * std::ceil(highest / 10));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Touching and the distance from a guidance point in a report, as the paper's Table 1 and Fig. 7 tell it of people.
+// Touching and the distance from a guidance point in a report, as the paper's Table 1 and Fig. 7 show them for people.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How touching depends on how near to a guidance point a vessel is held: what the paper tells of people in its Table 1 and Fig. 7, of grips.
+// How touching depends on how near to a guidance point a vessel is held: the paper's Table 1 and Fig. 7 on people, for grips.
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ std::string fullest_text(const Scene& scene, std::size_t vessel) {
          fill_text(scene, vessel, vessel_fills(scene, scene.vessels[vessel]).back());
 }
 
-// What a line says to those who do not see it.
+// A line in words, for those who do not see it.
 std::string effort_text(const Scene& scene, const std::string& who, const std::vector<double>& efforts) {
   if (!any_finite(efforts)) return fmt::format("{}: no force holds the vessel at any tilt. ", who);
   const std::string range = fmt::format("{}: {} at {}°, at most {}", who, shown_number(efforts.front(), 2),

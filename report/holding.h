@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What holding a vessel takes of the whole hand, in a report: digit by digit in the hardest state, and over the tilt.
+// Efforts of the whole hand in a report: digit by digit in the hardest state, and over the tilt.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// Whether there is anything to tell of holding: the scene has [strength] and tilts.
+// Whether the report has efforts: the scene has [strength] and tilts.
 bool tells_efforts(const Scene& scene);
 
 // The grip by the core over the scene's own states; with what holding takes where the scene has [strength]. Needs the core.

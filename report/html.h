@@ -13,7 +13,7 @@ namespace wholehand {
 // A table with header cells of their own scope. Wide ones scroll in a frame of their own, which a keyboard reaches, and not the page.
 class HtmlTable {
  public:
-  // `caption`: what the table holds, said above it; `words`: columns that hold words and not numbers.
+  // `caption`: what the table holds, printed above it; `words`: columns that hold words and not numbers.
   HtmlTable(MarkupWriter& html, const std::string& caption, const std::vector<std::string>& columns,
             const std::vector<std::size_t>& words = {});
   // The first cell is the row's header.

@@ -38,7 +38,7 @@ void read_columns(
   }
 }
 
-// What the best grip of each cell has that the file does not.
+// Computes the values of each cell's best grip that the file lacks.
 void fill_by_core(const ReportSource& source, std::size_t vessel, GripMap& map) {
   std::vector<GripInput> grips;
   std::vector<MapCell*> cells;
@@ -227,7 +227,7 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
   if (!reason || !plausible || !antipodal) return false;
   std::vector<ColumnOf> wanted{{reason, 0}, {plausible, 0}, {antipodal, 0}};
   if (blocked) wanted.push_back({blocked, 0});
-  // kept on request alone: what is implausible is told apart where all is known that may make it so
+  // kept on request alone: the reasons of implausible grips are shown only where all of them are known
   const Variable *table = source.result.find("through_table"), *overlap = source.result.find("self_overlap");
   const Variable* wrist = source.result.find("beyond_wrist");
   const bool knows_parts =

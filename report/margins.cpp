@@ -99,7 +99,7 @@ std::string term_reason(const Scene& scene, const Merit& merit) {
   }
 }
 
-// What each term adds to the score of a grip, and last the share of its deviations that hold: lists are ranked by what these score.
+// What each term adds to the score of a grip, and last the share of its deviations that hold: lists are ranked by the deviations' score.
 std::vector<Merit> merits_of(const Scene& scene, const GripReport& report) {
   const ScoreTerms& terms = report.answer.score.terms;
   const std::array<double, 6> weights = effective_weights(scene),

@@ -193,7 +193,7 @@ class Page {
     }
   }
 
-  // That of the list that begins best; where nothing is listed, that of the map.
+  // The first grip of the list that begins best; where nothing is listed, that of the map.
   std::optional<GripInput> best_grip(std::size_t v, const std::vector<ReportedGrips>& lists) const {
     const std::vector<Candidate> listed = best_first(lists);
     if (!listed.empty()) return source_.plan.grip(v, listed[0].index);

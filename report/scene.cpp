@@ -131,7 +131,7 @@ std::string wall_text(const VesselData& vessel) {
   return vessel.inner.empty() ? plain_number(vessel.wall * 1e3) : shown_number(vessel.wall * 1e3, 2) + " and more";
 }
 
-// What was found of each mesh, a line each.
+// The facts of each mesh, a line each.
 void write_meshes(MarkupWriter& html, const std::string& lines) {
   if (lines.empty()) return;
   html.open("ul");

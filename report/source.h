@@ -26,7 +26,7 @@ struct ReportSource {
   std::string lists_file{};               // from this file
 };
 
-// So many places of `all`, spread without a pattern and the same each time; all of them where there are no more.
+// `count` places of `all`, spread without a pattern and the same each time; all of them where there are no more.
 std::vector<std::uint64_t> sample_places(std::uint64_t all, std::size_t count);
 
 // A grip by its place in the file, which repeats what one azimuth stands for.

@@ -87,7 +87,7 @@ double check_within(const SceneFile& file, const Silhouette& silhouette, const s
   return thinnest;
 }
 
-// What the wall leaves inside is looked at more closely when the vessel is prepared.
+// prepare_vessel checks more closely what the wall leaves inside.
 void read_wall(const SceneTable& table, const Silhouette& silhouette, VesselData& vessel) {
   table.need("wall_mm", ranges::WALL, vessel.wall);
   vessel.cavity_place = table.file().text_of(table.place("wall_mm"));

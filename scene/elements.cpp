@@ -16,7 +16,7 @@ constexpr const char* FORMS = "{line = [r, y]}, {arc = [r, y], center = [r, y]} 
 constexpr double ROUNDED_AWAY = 1e-6;
 constexpr double UNEQUAL_RADII = 1e-6;       // of an arc's radius: by how much its ends may differ in distance from the center
 constexpr double USED_UP = 1e-9;             // mm: what two fillets leave of an element between them, by rounding
-constexpr double LONGEST_SWEEP = 0.99 * PI;  // rad: of one arc whose way its center and ends tell
+constexpr double LONGEST_SWEEP = 0.99 * PI;  // rad: of one arc whose way follows from its center and ends
 
 Point read_point(const SceneFile& file, const toml::node& node, const char* what, const Quantity& r_range,
                  const Quantity& y_range) {

@@ -10,7 +10,7 @@ namespace wholehand {
 namespace {
 
 constexpr double STRAIGHT = 1e-6;  // rad: a smaller bend is no corner
-// Of a length: by so much rounding may put a point of touch beyond its element's end, or off the circle.
+// Share of a length by which rounding may put a point of touch beyond its element's end, or off the circle.
 constexpr double ROUNDED = 1e-9;
 
 Point along_line(const PlaneCurve& line) {
@@ -82,8 +82,8 @@ int corner_turn(const PlaneCurve& first, const PlaneCurve& second) {
   return std::abs(sine) < STRAIGHT ? 0 : sine > 0 ? 1 : -1;
 }
 
-// Its center is as far from both elements as its radius: where their offsets to the inside of the corner cross. Of two crossings the one
-// that takes less of the elements away.
+// The arc's center is as far from both elements as its radius: where their offsets to the inside of the corner cross. Chooses the
+// crossing that takes less of the elements away.
 std::optional<Fillet> make_fillet(const PlaneCurve& first, const PlaneCurve& second, double radius) {
   const int turn = corner_turn(first, second);
   const auto first_offset = offset_support(first, turn * radius), second_offset = offset_support(second, turn * radius);

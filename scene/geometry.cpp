@@ -133,7 +133,7 @@ double distance(const PlaneCurve& curve, const Point& p) {
   return distance(p, {curve.a[0] + t * ur, curve.a[1] + t * uy});
 }
 
-// Of curves that do not meet the least distance is that of an end, or stands on both: on a circle at a foot seen from its center.
+// Where the curves do not meet, the least distance is at an end, or perpendicular to both: on a circle at a foot seen from its center.
 double distance(const PlaneCurve& first, const PlaneCurve& second) {
   if (meeting_point(first, second, 0, std::nullopt, 0)) return 0;
   double least =

@@ -40,7 +40,7 @@ double distance(const PlaneCurve& first, const PlaneCurve& second);  // 0 where 
 double turned_to(const PlaneCurve& arc, const Point& p);
 
 // Where the supporting lines and circles cross. A line or circle that just misses a circle counts at its nearest point, so that rounding
-// loses no touching: who asks checks the points.
+// loses no touching: the caller checks the points.
 struct Crossings {
   std::array<Point, 2> points;
   int count = 0;

@@ -27,8 +27,8 @@ void read_angle(const SceneTable& angles, const char* key, AngleRange& range) {
   range = {ends[0], ends[1]};
 }
 
-// Whose hand it is: the default, one of a length, a person of a survey, or the paper's. The tables of the fingers then change single
-// numbers, and `scale` multiplies all.
+// Reads whose hand it is: the default, one of a length, a person of a survey, or the paper's. The tables of the fingers then change
+// single numbers, and `scale` multiplies all.
 void read_size(const SceneTable& table, HandData& hand) {
   if (table.has("length_mm") && table.has("person"))
     table.file().refuse(table.place("person"), "person beside length_mm", "allowed: one of length_mm and person");

@@ -20,7 +20,7 @@ struct NewScene {
   std::optional<double> fill;                           // mL; without it, fractions of what the vessel holds
 };
 
-// A key of [[vessel]] that takes a number: its range, what stands beside it in the text, and what it is to a user of the command.
+// A key of [[vessel]] that takes a number: its range, its comment in the text, and what it is to a user of the command.
 struct NewSceneKey {
   const char* name;
   Quantity range;

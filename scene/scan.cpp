@@ -8,7 +8,7 @@
 namespace wholehand {
 namespace {
 
-// Knows strings, comments and brackets, which is enough to tell a header from an array and a dot in a key from one in a text.
+// Knows strings, comments and brackets, enough to distinguish a header from an array and a dot in a key from one in a text.
 class Scanner {
  public:
   Scanner(const SceneFile& file, std::string_view text) : file_(file), text_(text) {}
@@ -110,7 +110,7 @@ class Scanner {
   }
 
   void close(char c) {
-    if (open_.empty()) return;  // of a header, or an error that the parser tells
+    if (open_.empty()) return;  // of a header, or an error that the parser reports
     if (open_.back() != (c == ']' ? '[' : '{')) {
       file_.refuse(place_, fmt::format("found '{}', but '{}' is open", c, open_.back()), "allowed: TOML 1.0");
     }

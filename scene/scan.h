@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A look through a scene file's text before the TOML parser has it: what toml++ 3.3 accepts or meets without surviving.
+// Scans a scene file's text before the TOML parser reads it, for what toml++ 3.3 wrongly accepts or does not survive.
 #pragma once
 
 #include <string_view>
@@ -15,7 +15,7 @@ namespace wholehand {
 //   comments, where TOML has none, and behind a backslash in a string of several lines, where it would be allowed after a line's end;
 // * a text whose closing quote, opening quote or both are missing, which the parser does not name;
 // * what makes the parser see a string elsewhere than this scan: one right behind something else, a second = of one value.
-// Of a text with several faults it may name a later one than the parser would.
+// Where a text has several faults, it may name a later one than the parser would.
 void scan_scene(const SceneFile& file, std::string_view text);
 
 }  // namespace wholehand

@@ -99,7 +99,7 @@ class SceneTable {
 
   // The table under a key; nothing where the key is absent.
   std::optional<SceneTable> table(std::string_view key, std::vector<std::string_view> keys) const;
-  // Its bare TOML table, for keys that only the file knows.
+  // The bare TOML table of a key, for keys that only the file knows.
   const toml::table* bare_table(std::string_view key, const std::string& allowed) const;
 
  private:

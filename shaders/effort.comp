@@ -45,7 +45,7 @@ void main() {
   barrier();
   bool has_grip = gl_LocalInvocationIndex < busy_count;
   uint grip = 0u;
-  // a loop of one turn is passed by where no lane takes it; a branch is not
+  // a driver skips a loop of one turn that no lane takes; it does not skip a branch
   [[dont_unroll]] for (bool once = has_grip; once; once = false) {
     grip = busy_grips[gl_LocalInvocationIndex];
     load_contacts(grip);
@@ -72,7 +72,7 @@ void main() {
   uint k = has_grip ? 0u : push.number;
   for (; k < push.number && turns < EFFORT_TURNS; ++turns) {
     Real enough = TASK == EFFORT_SAFE ? JUST_HELD : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
-    // states that the last basis shows to be small, or that nothing depends on, are passed by
+    // skips states that the last basis shows to be small, or that nothing depends on
     bool is_new = !is_solving;
     while (k < push.number && !is_solving) {
       state = is_rising ? state : k;
@@ -108,7 +108,7 @@ void main() {
       Vec4 tilted = states_in[2u * state + 1u];
       has_basis = (solve.effort < INFINITE && solve.is_known) || solve.is_beyond;
       is_solving = false;
-      // a basis of another load may end in a corner: what is not known then is told from the start
+      // a basis of another load may end in a corner: an effort unknown then is solved from the start
       bool is_told = has_basis || !is_warm;
       bool is_coarse = is_rising && rises > 0 && has_basis;
       [[dont_unroll]] for (bool rise = is_coarse; rise; rise = false) {

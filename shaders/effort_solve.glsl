@@ -11,8 +11,8 @@
 #include "trig.glsl"
 
 #define HALF_TOLERANCE (Real(0.5) * EFFORT_TOLERANCE)
-#define RISE_TOLERANCE RATIO(1, 20)  // of an effort that only tells where to look next
-#define FRESH_PIVOTS 20  // after so many the inverse is refined
+#define RISE_TOLERANCE RATIO(1, 20)  // of an effort that only directs the search
+#define FRESH_PIVOTS 20  // pivots after which the inverse is refined
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
@@ -28,7 +28,7 @@ shared uint busy_count;
 Vec3 arms[JOINTS], normals[JOINTS];
 Vec3 center, pour;
 Real unit_length, unit_force, gamma, dear;
-// Of the scene, loaded before the loops over states: in them a driver would gather each lane by lane.
+// Scene values, loaded before the loops over states: in them a driver would gather each lane by lane.
 Vec3 own_center;
 Real gravity;
 Real friction;
@@ -192,7 +192,7 @@ void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is
   solve.pivots += 1;
 }
 
-// The effort anew, less the rounding of the inverse. One that was enough stays so, also where it comes out a little larger.
+// The effort anew, less the rounding of the inverse. One that was enough stays so, even if it is a little larger now.
 void finish(inout Solve solve) {
   Real levels[6];
   balanced_levels(solve.wanted, levels);

@@ -14,7 +14,7 @@ struct Element {
   int supports;
 };
 
-// From a record: layout.h tells what `code` holds.
+// From a record: layout.h says what `code` holds.
 Element make_element(Vec2 a, Vec2 b, Vec2 center, Real radius, Real code) {
   return Element(a, b, center, radius, SIDE_OF(int(code)), SUPPORTS_OF(int(code)));
 }

@@ -229,7 +229,7 @@ void examine_between(int f, int first_joint, PlacedFinger finger) {
     status |= is_undecided(ball.place, separation, HAND_CONTACT_TOLERANCE) ? STATUS_CONTACT_UNDECIDED : 0u;
     uint places = vacant & (bone == 0 ? 1u : ~1u);
     bool touching = CONTACTS >= 0 && separation <= HAND_CONTACT_TOLERANCE && places != 0u;
-    // a loop of one turn is passed by where no lane takes it
+    // a driver skips a loop of one turn that no lane takes
     [[dont_unroll]] for (bool once = touching; once; once = false) {
       int place = findLSB(places);
       if (put_contact(first_joint + place, ball.place, true)) vacant &= ~(1u << place);
@@ -246,8 +246,8 @@ void keep_chain(int f, int first_joint, PlacedFinger finger) {
 int phalanx_digit(int phalanx) { return (phalanx + 1) / 3; }
 int phalanx_start(int phalanx) { return phalanx + 1 + 2 * phalanx_digit(phalanx); }
 
-// As core/grip.cpp has it. Places that are constants are read for all lanes at once, others lane by lane: so all other bones are asked
-// first which of them are near, and only these are looked at.
+// As core/grip.cpp has it. Places that are constants are read for all lanes at once, others lane by lane: so a first pass finds which
+// of the other bones are near, and only these are evaluated.
 Real digits_overlap() {
   Ball around[PHALANGES];
   [[unroll]] for (int bone = 0; bone < PHALANGES; ++bone) around[bone] = around_bone(chain[phalanx_start(bone)], chain[phalanx_start(bone) + 1]);

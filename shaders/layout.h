@@ -8,7 +8,7 @@
 #include <cstdint>
 #endif
 
-// A ratio of whole numbers in the reals of whoever asks: a literal would be a float in GLSL.
+// A ratio of whole numbers in the includer's reals: a literal would be a float in GLSL.
 #ifdef __cplusplus
 #define RATIO(a, b) (double(a) / double(b))
 #else
@@ -67,7 +67,7 @@
 #define DEVICE_RISES 4              // of an effort: times that a grip looks for the state that its last lower bound bounds most
 #define EFFORT_TURNS 4000           // of a grip in a dispatch of the effort kernel
 #define RESERVE_TURNS 4100          // .. of the kernel of reserves,
-#define RESERVE_RAISE_TURNS 1100    // and turns in which it looks for a friction
+#define RESERVE_RAISE_TURNS 1100    // and turns in which it searches for a friction
 
 // ---- a case of the rendered wall as its kernel reads it: plane * n + case, reals ----
 #define CASE_MASS 0                 // of the plant: kg

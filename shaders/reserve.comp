@@ -12,7 +12,7 @@
 #define QUICK_RAISES 20  // of the friction for one state, after which its range is halved
 #define PUSHES 7u        // the weight alone, and a force along six directions
 
-int raise_turns = 0;  // in which this grip looked for a friction
+int raise_turns = 0;  // in which this grip searched for a friction
 
 // The friction at which h(u) comes to a value: Newton's method, as EffortSolver::least_friction. What each contact does along u without friction, and
 // what a friction of 1 adds, are found once: they take most of the time, and are the same in all turns.

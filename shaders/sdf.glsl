@@ -47,7 +47,7 @@ bool element_crosses(Element element, Vec2 q) {
   bool up = element.b.y > element.a.y;
   Real low = up ? element.a.y : element.b.y;
   Real high = up ? element.b.y : element.a.y;
-  // a level element is not crossed: said, so that a driver leaves it out
+  // a level element is not crossed: explicit, so that a driver leaves it out
   bool spans = low < high && !(q.y < low || q.y >= high);
   if (element.side == 0) {
     Vec2 along = element.b - element.a;

@@ -16,8 +16,8 @@ struct Anova {
   double share = 0;                // eta squared: the sum of squares between groups over all
 };
 
-// Of groups of values; empty groups do not count. None where fewer than two groups are left, where no group has a second value,
-// or where the values of no group differ by more than rounding (statistics/moments.h).
+// One-way ANOVA of groups of values; empty groups do not count. None where fewer than two groups are left, where no group has a second
+// value, or where the values of no group differ by more than rounding (statistics/moments.h).
 std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups);
 
 }  // namespace wholehand

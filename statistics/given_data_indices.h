@@ -14,13 +14,13 @@ namespace wholehand {
 // First-order indices S_i = Var(E[Y | X_i]) / Var(Y) of every answer Y and every input X_i, from entries that come one by one: none
 // of them is kept. The inputs must be independent of each other and uniform in (0, 1). After Plischke, Borgonovo & Smith 2013 (Eur.
 // J. Oper. Res. 226:536): each input is cut into bins, and the means of the answers in the bins take the place of E[Y | X_i]. Noise
-// makes these means differ too. Its part is taken off (epsilon squared, Kelley 1935):
+// makes these means differ too. Its part is subtracted (epsilon squared, Kelley 1935):
 //     S_i = (SS_between - (bins - 1) MS_within) / SS_total
 // The estimate may therefore be below 0. What an input does within a bin is not seen: an answer that is a line in the input loses
 // 1 / 256 of its index, and a sine loses 5 % where 8 bins are one period.
 //
 // The interval of 95 % is a delete-a-group jackknife's: the values of an answer are dealt to 20 groups in turn, the index is found
-// without each group, and Student's t has 19 degrees of freedom. Of an input without influence the interval is rather too wide.
+// without each group, and Student's t has 19 degrees of freedom. The interval is rather too wide for an input without influence.
 //
 // The same entries in the same order give the same bits.
 class GivenDataIndices {

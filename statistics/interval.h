@@ -14,7 +14,7 @@ struct Interval {
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;
 };
 
-// So many of so many, with Wilson's score interval (1927). NaN of none.
+// `yes` of `of`, with Wilson's score interval (1927). NaN where `of` is 0.
 struct Share {
   std::size_t yes = 0, of = 0;
   double share = std::numeric_limits<double>::quiet_NaN();

@@ -14,7 +14,7 @@ constexpr int MOST_STEPS = 200, MOST_HALVINGS = 40;
 constexpr double SETTLED = 1e-9;           // of the longest step of an unknown
 constexpr double ROUNDING = 1e-12;         // of the log-likelihood
 constexpr double WANTED_SLOPE = 1e-6;      // of the log-likelihood: a smaller one is rounding
-constexpr double SEPARATED = 20;           // without a ridge, a coefficient of so many, per deviation of its term, only grows on
+constexpr double SEPARATED = 20;           // without a ridge, a coefficient beyond this, per deviation of its term, only grows on
 constexpr double DEPENDENT_PIVOT = 1e-10;  // a pivot of less than this share of its place: the unknowns depend on one another
 
 using Unknowns = std::vector<double>;  // of the terms, and the intercept last

@@ -12,7 +12,7 @@ namespace wholehand {
 
 // log(p / (1 - p)) = intercept + sum of coefficient x term, by Newton's steps (iteratively reweighted least squares). A term that
 // does not vary has the coefficient 0. Where successes and failures can be separated, or the terms depend on one another, the
-// largest likelihood has no finite place: then half a square of each coefficient, in units of its term's deviation, is taken off
+// largest likelihood has no finite place: then half a square of each coefficient, in units of its term's deviation, is subtracted from
 // the log-likelihood (a ridge), and `has_ridge` says so.
 struct LogisticModel {
   std::vector<double> coefficients;

@@ -19,7 +19,7 @@ class RunningCorrelation {
   void add(const RunningCorrelation& other, double weight);
 
   std::size_t pairs() const { return pairs_; }  // whatever their weight
-  // Of the second ones; NaN of none.
+  // Mean of the second numbers; NaN where there are none.
   double mean_y() const;
 
   // As pearson and point_biserial of the same pairs, to rounding. For the latter each y is 0 or 1.

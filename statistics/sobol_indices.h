@@ -21,7 +21,7 @@ struct SensitivityIndex {
 // same number of rows, `a` and `b` are the model's answers to their rows, and mixed[i] those to the rows of A with input i taken
 // from B:
 //     V_i = mean of b (mixed_i - a)        S_i = V_i / V, V the variance of all of a and b
-// The mean of a and b is taken off first, which leaves V_i as it is and its error small. All have the same size, at least 2. The
+// The mean of a and b is subtracted first, which leaves V_i as it is and its error small. All have the same size, at least 2. The
 // interval is a bootstrap's over the rows. Indices are 0, with no interval, where the answer does not vary by more than rounding.
 std::vector<SensitivityIndex> first_order_indices(std::span<const double> a, std::span<const double> b,
                                                   std::span<const std::vector<double>> mixed, int resamples, std::uint64_t seed);

@@ -13,9 +13,9 @@
 
 namespace wholehand {
 
-// Of each number three rows: subject "without", "with", and "difference" (with less without, person by person). People who grasp
-// in one of the two sessions alone are left out of a number that needs grasps. Intervals are those of the mean of all people,
-// from samples with replacement, of whole persons: 95 %. Of fewer than two people there is none. The same on any `threads`.
+// Each number has three rows: subject "without", "with", and "difference" (with less without, person by person). A number that needs
+// grasps leaves out people who grasp in only one of the two sessions. Intervals are 95 % bootstrap intervals of the mean, resampling
+// persons; absent with fewer than two people. The same on any `threads`.
 std::vector<StudyRow> advice_rows(std::span<const AdvisedPerson> people, std::uint64_t seed, int resamples, int threads);
 
 // A sentence for each number: "Effort: .21 lower (.25 to .18 lower). Advice helps." Where the interval of the difference has 0 in

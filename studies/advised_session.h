@@ -16,7 +16,7 @@ namespace wholehand {
 
 // A larger effort counts as this one: beyond all of the strength twice the need is no other answer.
 constexpr double LARGEST_COUNTED_EFFORT = 2;
-constexpr double EFFORT_LOOKS = 20;  // Hz at which the effort of a held vessel is looked at
+constexpr double EFFORT_LOOKS = 20;  // Hz at which the effort of a held vessel is sampled
 
 // One session.
 struct AdvisedOutcome {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page says of the experiment of contacts.
+// The page's part on the experiment of contacts.
 #pragma once
 
 #include <span>

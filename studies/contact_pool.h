@@ -32,8 +32,8 @@ class VesselTallies {
 
   void add(std::size_t vessel, const ContactGrasp& grasp) { tallies_[vessel].add(grasp); }
   void add(Grasps grasps);
-  // Those of contact_statistics(): vessel after vessel, then all of the paper's together. There, each vessel has the weight that it
-  // has in a sample: the grasps that a sample makes until enough of them hold. So the grasps of a sample have one weight.
+  // The values of contact_statistics(): vessel after vessel, then all of the paper's together. There, each vessel has its weight in a
+  // sample: the grasps that a sample makes until enough of them hold. So the grasps of a sample have one weight.
   std::vector<double> values() const;
 
  private:

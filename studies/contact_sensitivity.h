@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a person decides how their hand touches.
+// Which traits of a person decide how their hand touches.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ struct ContactGrasp {
   bool is_plausible = false;                                    // and no part of the hand is deep in the vessel
 };
 
-// What is said of grasps, in one order for all tallies. `subject`: the point of the hand, or empty.
+// A statistic of grasps, in one order for all tallies. `subject`: the point of the hand, or empty.
 struct ContactStatistic {
   std::string name, subject;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page and the terminal say of the experiment of forces.
+// The page's and the terminal's part on the experiment of forces.
 #pragma once
 
 #include <span>

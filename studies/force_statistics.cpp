@@ -23,7 +23,7 @@ namespace {
 constexpr double NO_SHARE = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t FORCE_SAMPLES = 0x666f72636573;  // keeps the samples' draws from those of people
 
-// What a person's trial is looked at for.
+// An event whose share of trials is counted.
 struct ForceEvent {
   std::string name;  // "lost", "opening_over_1mm"
   std::function<bool(const ForceOutcome&)> happens;

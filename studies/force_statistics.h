@@ -15,7 +15,7 @@ namespace wholehand {
 
 using ForcesOfPerson = std::array<ForceOutcome, FORCE_CHOICES>;  // by PAPER_CHOICES
 
-constexpr std::array<double, 3> OPENINGS{0.5e-3, 1e-3, 2e-3};  // m: whose shares are told beside those of lost grips
+constexpr std::array<double, 3> OPENINGS{0.5e-3, 1e-3, 2e-3};  // m: whose shares are reported beside those of lost grips
 
 // Rows of the experiment "forces". Intervals are those of ten people, drawn without replacement where there are many; NaN where
 // there are fewer than ten. The same bits for any number of threads.

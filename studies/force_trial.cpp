@@ -60,7 +60,7 @@ bool ForceWatch::take(const Tick& tick) {
   return !is_over_;
 }
 
-// Windows follow one another; what is left of the last one is not looked at.
+// Windows follow one another; an incomplete last one is ignored.
 void ForceWatch::watch_swings(double force) {
   window_.push_back(force);
   if (static_cast<double>(window_.size()) < SWING_WINDOW * rate_) return;

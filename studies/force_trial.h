@@ -72,7 +72,7 @@ class ForceWatch {
   std::vector<double> window_;  // forces at rest, N
 };
 
-// The scene of the trials: one vessel of `scene`, as it stands there, and nothing to do but to show it.
+// The scene of the trials: one vessel of `scene`, at its place there, with the one task to show it.
 Scene force_scene(const Scene& scene, std::size_t vessel);
 
 // `scene`: of force_scene, with the person's own hand; `jobs`: of that.

@@ -10,7 +10,7 @@
 
 namespace wholehand {
 
-constexpr double HARD_GRIP = 8, SOFT_GRIP = 1;  // N: the paper counts who maintains with more or less than this
+constexpr double HARD_GRIP = 8, SOFT_GRIP = 1;  // N: the paper counts people who maintain with more or less than this
 
 namespace of_grasp {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a study is done: a file that grows by a line with each person, so that an interrupted study goes on where it ended.
+// The done part of a study: a file that grows by a line with each person, so that an interrupted study resumes where it ended.
 #pragma once
 
 #include <cstddef>

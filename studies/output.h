@@ -25,7 +25,7 @@ inline constexpr const char* STUDY_REMEDY = "make room, or name another folder w
 // be; (failure) no file can be made in it.
 void prepare_study_folder(const std::string& folder);
 
-// Removes what a run that was killed left of files that it had not given their names. Only who holds the lock may ask.
+// Removes the unnamed files that a killed run left. Call only while holding the lock.
 void remove_unfinished_study(const StudyFiles& files);
 
 }  // namespace wholehand

@@ -12,7 +12,7 @@
 
 namespace wholehand {
 
-// So many people, and so many grasps of each of the three vessels.
+// The paper's people, and its grasps of each of the three vessels.
 constexpr std::size_t PAPER_PEOPLE = 17;
 // A population with the people of so many samples is large: a sample draws none twice. The samples of a smaller one would be too
 // alike, and are drawn with replacement.

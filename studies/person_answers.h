@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a person decides how they do in the experiments of forces and sessions.
+// Which traits of a person decide the results of the experiments of forces and sessions.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@ namespace wholehand {
 
 struct StudyRow {
   std::string experiment, pose, vessel;
-  std::string statistic, subject;  // subject: what it is said of, as a point of the hand or a choice of forces; empty: of all
+  std::string statistic, subject;  // subject: what it applies to, as a point of the hand or a choice of forces; empty: all
   double value = std::numeric_limits<double>::quiet_NaN();  // of the population; NaN: there is none
   Interval interval;                                        // of 95 %, at the paper's sample size; NaN: there is none
   std::optional<double> paper;                              // absent: not known here

@@ -113,7 +113,7 @@ class StudyRun {
   }
 
  private:
-  // Of all people of the sessions: they have no interval at the paper's sample size.
+  // Shares over all people of the sessions: they have no interval at the paper's sample size.
   static void add_share(std::vector<StudyRow>& rows, const char* statistic, std::uint64_t yes, std::uint64_t of) {
     StudyRow row;
     row.experiment = "sessions";
@@ -136,7 +136,7 @@ class StudyRun {
                       counted(static_cast<std::uint64_t>(thread_count(options_.threads)), "thread")));
   }
 
-  // Of the experiments that take long for each person.
+  // The journal of the experiments that take long for each person.
   void open_journal() {
     const StudyIdentity identity{{"text of the scene", checksum_text(scene_.text.data(), scene_.text.size())},
                                  {"set of meshes", mesh_keys(scene_)},

@@ -32,8 +32,8 @@ struct OutputIndices {
 };
 constexpr std::size_t MOST_INPUTS = 3;
 
-// Of the rows of sensitivity among `rows`, in their order. An input whose interval reaches down to 0 is left out; an output may so
-// be left without inputs.
+// Reads the rows of sensitivity among `rows`, in their order. Leaves out inputs whose interval reaches down to 0; an output may have
+// none left.
 std::vector<OutputIndices> strongest_inputs(std::span<const StudyRow> rows);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page says of the experiment of sessions.
+// The page's part on the experiment of sessions.
 #pragma once
 
 #include <vector>

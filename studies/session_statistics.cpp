@@ -28,7 +28,7 @@ constexpr std::uint64_t SESSION_SAMPLES = 0x73657373696f6e73;  // keeps the samp
 using GraspList = std::vector<const GraspReport*>;
 using GraspsByVessel = std::vector<GraspList>;  // in the order of the SessionVessels
 
-// ---- what is said of grasps ----
+// ---- statistics of grasps ----
 
 enum class Said { mean, deviation, correlation };
 
@@ -92,7 +92,7 @@ const std::array<OfVessel, 18> OF_VESSEL{{
     {{"saturated_share", Said::mean, is_saturated}},
 }};
 
-// Of the normal increases of the vessels against each other.
+// Statistics that compare the normal increases of the vessels with each other.
 struct BetweenVessels {
   const char* name;
   double paper = NO_VALUE;
@@ -167,8 +167,8 @@ class GraspPool {
     return grasps;
   }
 
-  // 17 people: each once of a large population, else drawn with replacement, as for a bootstrap. Of each vessel as many of their
-  // grasps as the paper has; all where there are fewer.
+  // 17 people: each once of a large population, else drawn with replacement, as for a bootstrap. Each vessel has as many of
+  // their grasps as in the paper; all where there are fewer.
   GraspsByVessel sample(std::uint64_t seed) const {
     std::uint64_t state = seed;
     GraspsByVessel grasps(vessels_);

@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// So many times each person does the task, so that 17 people have more than the paper's 32 grasps of a vessel.
+// How often each person does the task, so that 17 people have more than the paper's 32 grasps of a vessel.
 constexpr std::uint64_t SESSIONS_PER_PERSON = 2;
 
 struct PersonSessions {

@@ -21,7 +21,7 @@ struct SimulatedSession {
   const Scene& scene;  // with the person's own hand
   const Participant& person;
   std::uint64_t seed = 1;    // of the tremor
-  std::vector<SimJob> jobs;  // what there is to do
+  std::vector<SimJob> jobs;  // of the person, in their order
   double seconds = LONGEST_SESSION;
   ShownGripSource* shown = nullptr;  // grips that the person is shown and takes; null: none
 };
@@ -34,7 +34,7 @@ bool run_simulated(const SimulatedSession& asked, const std::function<bool(const
 // The seed of the tremor in session `k` of a person. Without scatter everybody is one person, who trembles alike too.
 std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t person, std::uint64_t k);
 
-// Of a person for whom the scene has nothing to do: none.
+// The jobs of the scene's person; none where the scene has nothing for that person to do.
 std::vector<SimJob> jobs_of(const Scene& scene);
 
 }  // namespace wholehand

@@ -58,7 +58,7 @@ std::string statistic_words(const std::string& statistic) {
     const std::string measure = statistic.substr(0, statistic.size() - std::string(end).size());
     return fmt::format("{}, {} ({})", without_underscores(measure), end + 1, unit->unit);
   }
-  // of the types of the paper: "G1"
+  // the share of a type of the paper: "G1"
   if (statistic.size() == 8 && statistic[0] == 'g' && is_share(statistic)) return fmt::format("type G{}", statistic[1]);
   return without_underscores(statistic);
 }

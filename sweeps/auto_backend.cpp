@@ -99,8 +99,7 @@ void AutoBackend::decide() {
   options_.choice = no_device_.empty() ? choice_line(task_, choice, core_, device_) : "chosen: core, since " + no_device_;
 }
 
-// The devices are asked for only where nothing is known of them, or for long nothing new, and a device might be worth it: that alone takes a
-// twentieth of a second.
+// Asks for the devices only where their cost is unknown or old and a device might be worth it: asking alone takes a twentieth of a second.
 CostEstimate AutoBackend::device_cost() {
   const CostEstimate known = estimate(history_, machine_name(), task_, false, guess_device(task_, true));
   const bool is_known = known.runs > 0 && known.age < RUNS_TO_OLD;

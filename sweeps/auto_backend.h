@@ -30,7 +30,7 @@ class AutoBackend {
   AutoBackend(const Scene& scene, SweepOptions& options);
 
   // What `work` makes of options.on. Where the program chose the device itself and that fails, options.on becomes the core, and `work` is
-  // done again; then a note says so. Where the core fails too, it was not the device, and its error is all that is told.
+  // done again; then a note says so. Where the core fails too, it was not the device, and only the core's error is reported.
   template <class Work>
   auto or_on_core(Work&& work) {
     if (!may_change_) return work();

@@ -17,7 +17,7 @@ namespace wholehand {
 // How the table of best_csv begins.
 inline constexpr std::string_view BEST_CSV_START = "vessel,rank,height_mm,";
 
-// What holding takes of the whole hand over all fills and tilts (docs/method.md, 10).
+// Efforts of the whole hand over all fills and tilts (docs/method.md, 10).
 struct GripEfforts {
   double worst = std::numeric_limits<double>::quiet_NaN(), fill = worst, tilt = worst;  // a state of it: fraction, rad
   double tips_worst = worst;
@@ -32,7 +32,7 @@ struct RobustScore {
   double share = mean;  // of the deviations that are feasible, plausible and held
 };
 
-// One of the best grips with what is told of it. Forces and tilts are the worst over all fills; NaN where the scene has no tilts.
+// One of the best grips with its figures. Forces and tilts are the worst over all fills; NaN where the scene has no tilts.
 struct BestGrip {
   Candidate candidate;
   GripInput grip;
@@ -62,7 +62,7 @@ BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candid
 // FIELD_* that a BestGrip is read from.
 std::vector<int> best_fields(const Scene& scene);
 
-// Evaluates the candidates of a vessel once more: a sweep need not have kept what is told of them. The backend must keep
+// Evaluates the candidates of a vessel once more: a sweep need not have kept all their figures. The backend must keep
 // best_fields(). Throws Error (failure) where it delivers fewer.
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
                                     const std::vector<Candidate>& candidates);
@@ -83,13 +83,13 @@ struct ListOrigin {
 // sweep, the result and the sweep, by which the grips are found again. The lists are those of each vessel and hand scale (GripLists).
 std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
                      const ListOrigin& origin);
-// Its first line, and the line of a grip of a vessel.
+// The first line of a CSV list, and the line of a grip of a vessel.
 std::string best_csv_head(const Scene& scene);
 std::string best_csv_row(const Scene& scene, const std::string& vessel, const BestGrip& best, const ListOrigin& origin);
 
 // By what a list is ranked: the largest score, the largest robust scores (sweeps/robust.h), the least worst_effort, or the largest push.
 enum class RankBy { score, robust, worst_effort, push };
-// That of a sweep: `robust` in a scene with [robust], else `score`.
+// The order of a sweep's lists: `robust` in a scene with [robust], else `score`.
 RankBy usual_order(const Scene& scene);
 
 // What a terminal shows of a list.

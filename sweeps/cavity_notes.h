@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a reader of a scene may not have meant about what its vessels hold.
+// Notes on likely mistakes in a scene about what its vessels hold.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep says before, beside and after its work.
+// The messages of a sweep before, during and after its work.
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,7 @@ void check_companions(const Scene& scene, const OutputNames& names, bool best, b
   std::error_code not_there;
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(names.partial, not_there)))
     throw usage_error(fmt::format("-o {}: is a link, and the sweep would replace it with a file; remove it", names.partial));
-  // what check_room reserved and nobody has defined yet is zeros
+  // what check_room reserved and is not yet defined is zeros
   if (!begins_with(names.partial, std::string_view("\0\0\0\0\0\0\0\0", 8)))
     check_overwrites_kind(names.partial, NETCDF4_START, "partial result", "-o");
   check(names.mark, MARK_START, "progress mark of wholehand's");

@@ -41,7 +41,7 @@ bool is_same_place(const RunTime& a, const RunTime& b) { return is_of(a, b.machi
 // A device's first run compiles what later ones find in the driver's cache, so one run of it says little.
 bool is_sure(const CostEstimate& cost, bool is_device) { return cost.runs >= (is_device ? 2 : 1); }
 
-// Of a device that is not sure the fixed part is no reason against a try: it may be what compiled.
+// While a device's estimate is not sure, its fixed part is no reason against a try: it may be compilation.
 bool is_due(const CostEstimate& cost, double other_seconds, const SweepTask& task, bool is_device) {
   if (cost.age < RUNS_TO_OLD) return false;
   if (is_sure(cost, is_device)) return cost.seconds(task.grips) <= WORTH_A_TRY * other_seconds;
@@ -51,7 +51,7 @@ bool is_due(const CostEstimate& cost, double other_seconds, const SweepTask& tas
 
 bool is_short(const RunTime& run, const SweepTask& task) { return run.grips < task.grips / FEW_GRIPS; }
 
-// What a short run takes a grip is largely latency, and compilation on a device. It may say less than the guess, and what is more is fixed.
+// A short run's time per grip is largely latency, and compilation on a device. It may lower the guess; any excess counts as fixed.
 CostEstimate cost_of(const RunTime& run, const SweepTask& task, double guess_per_grip) {
   const auto grips = static_cast<double>(run.grips);
   CostEstimate cost;

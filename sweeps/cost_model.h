@@ -12,7 +12,7 @@
 
 namespace wholehand {
 
-// What of a sweep changes what one grip costs. Of a mesh no more is asked than that there is one.
+// Properties of a sweep that change the cost of a grip. For meshes, only whether there is one.
 struct SweepTask {
   std::uint64_t grips = 0;  // evaluated, of all vessels
   bool has_efforts = false, has_mesh = false, is_robust = false;

@@ -14,10 +14,10 @@ namespace wholehand {
 // The key of a scene's [grips] that an axis comes from: "roll_deg", "height_fraction".
 std::string axis_key(const PlanAxis& axis);
 
-// Keys of the axes at whose smallest or largest value the best of a vessel's grips lies: there the range may cut off better ones. `best`: the
-// best first. Of several equally good grips all must lie at ends of the axis. Sobol points lie at an end where the nearest value of a grid of as many
-// grips would. Not named: an axis of one value, azimuth and roll all the way round, azimuth about bodies of revolution, an end where no vessel goes on (height at its lowest
-// point or its mouth, obliquity at 90 degrees), and hand_scale, which tells whose hand it is.
+// Keys of the axes at whose smallest or largest value the best of a vessel's grips lies: there the range may cut off better ones. `best`:
+// the best first. Where several grips are equally good, all must lie at ends of the axis. Sobol points lie at an end where the nearest
+// value of a grid of as many grips would. Not named: an axis of one value, full turns of azimuth and roll, azimuth about bodies of
+// revolution, the vessel's ends (height at lowest point or mouth, obliquity at 90 degrees), and hand_scale, which says whose hand it is.
 std::vector<std::string> edge_axes(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<Candidate>& best);
 
 // "the best lies on the edge of roll_deg; widen it?"; empty where no axis is named.

@@ -38,7 +38,7 @@ struct Measured {
 
 std::string us(double microseconds) { return fixed_text(microseconds, 3); }
 
-// What a grip takes more in memory than by the other way, B.
+// Additional memory of a grip over the other way, B.
 std::string more_bytes(const Measured& way, const Measured& other) {
   return fixed_text(static_cast<double>(way.bytes) - static_cast<double>(other.bytes), 0);
 }
@@ -206,8 +206,8 @@ class Explainer {
         scene_.tilts.empty() ? "5 fills and 31 tilts" : "5 fills");
   }
 
-  // What keeping the hand above the table costs: a saving of a scene without one, and the price of a scene with one. Efforts are left
-  // out on both ways: they are of plausible grips, and a table leaves fewer.
+  // The cost of keeping the hand above the table: saved in a scene without one, paid in a scene with one. Both ways leave out efforts:
+  // only plausible grips have them, and a table leaves fewer.
   void table(const Measured& as_is) {
     part(as_is, &Scene::table, "the table", "keeping the hand above a table: the scene has no table", "a table");
   }
@@ -343,7 +343,7 @@ class Explainer {
         us(each), readable_number(count), readable_number(judged), readable_number(listed), least, all);
   }
 
-  // Told, not measured: a device goes through these states all the same.
+  // Counted, not measured: a device goes through these states all the same.
   void poured() {
     if (!scene_.until_poured) return;
     const std::size_t tilts = scene_.tilts.size();

@@ -20,7 +20,7 @@ struct RankedCandidate {
 // One list for each vessel and, where the plan has several, each hand scale: that of vessel v and hand scale s is number v * plan.hand_scales() + s.
 using GripLists = std::vector<std::vector<RankedCandidate>>;
 
-// Tells sweeps apart: the same for the same scene, meshes, program, device, driver and precision. "sweep-" and 16 hexadecimal digits.
+// Identifies a sweep: the same for the same scene, meshes, program, device, driver and precision. "sweep-" and 16 hexadecimal digits.
 std::string sweep_id(const SweepOrigin& origin);
 
 // The origin of a sweep that is under way, as far as its id goes, and that of the lists of its result file.

@@ -14,8 +14,8 @@
 namespace wholehand {
 
 // HDF5 follows what a damaged file says to places that are not there: it crashes, never ends, or forgets memory, when the file is opened
-// and at any value that is read later. So a process that may die of it does all of that and hands over what it found. It has so much time of a
-// processor for each answer, and so much memory; whatever goes wrong in it is one line here.
+// and at any value that is read later. So a process that may die of it does all of that and hands over what it found. Its processor time
+// for each answer and its memory are limited; whatever goes wrong in it is one line here.
 //
 // Local files only: NetCDF gets an absolute path, since it takes a relative one in an address's form for an address and sends a request there.
 class GuardedFile {

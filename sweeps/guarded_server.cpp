@@ -169,7 +169,7 @@ class Server {
     return status;
   }
 
-  // They are characters, and come as a text.
+  // Checksums are characters, and come as a text.
   int add_checksums(std::string& catalogue, int id, nc_type type, const std::vector<std::size_t>& shape) {
     if (type != NC_CHAR || shape.size() != 1) return SAYS_TOO_MUCH;
     std::string text(shape[0], ' ');

@@ -36,7 +36,7 @@ class HeatMap {
   // Takes the feasible grips of a chunk. The set must keep FIELD_SCORE and FIELD_STATUS.
   void add(const Plan& plan, const PlaneChunk& chunk, const FieldSet& fields);
 
-  // Takes a score of one cell, by its place in scores(), that somebody else has found.
+  // Takes a score of one cell, by its place in scores(), found elsewhere.
   void raise(std::size_t cell, double score);
 
   const MapAxis& heights() const { return heights_; }

@@ -30,14 +30,14 @@ std::vector<PictureFile> heat_map_files(const std::vector<HeatMapPicture>& pictu
 ColorScale score_scale(double low, double high);
 
 // The pictures of a sweep, one per vessel, with titles that say what each cell is the largest of. Vessels whose names make the same
-// file name are told apart by a number.
+// file name get a number.
 std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan, const std::vector<HeatMap>& maps,
                                            const OutputNames& names);
 
 // "a b/c" -> "a_b_c": a vessel's name as part of a file name.
 std::string file_name_part(const std::string& name);
 
-// Of all vessels; those that are alike are told apart by a number.
+// The parts for all vessels; those that are alike get a number.
 std::vector<std::string> file_name_parts(const Scene& scene);
 
 }  // namespace wholehand

@@ -28,7 +28,7 @@ struct ListRequest {
   int threads = 0;       // 0: all
 };
 
-// So many grips does a pass keep for each list.
+// How many grips a pass keeps for each list.
 std::size_t usual_pool(const Plan& plan, std::size_t best, double apart);
 
 // A list is defined thus: go through the feasible, plausible grips of its vessel and hand scale in the order of is_better, and take
@@ -40,7 +40,7 @@ std::size_t usual_pool(const Plan& plan, std::size_t best, double apart);
 // pool. When the pool is used up and was full, all up to its last grip is decided, and another pass goes on from there. The first
 // of a full pool is always taken, so there are at most `best` passes. Memory is that of `pool` + `best` grips a list.
 //
-// Scores are those of whoever evaluated the grips. Hands are the core's in double precision, whatever computed the scores, so that
+// Scores are those of the grips' evaluation. Hands are the core's in double precision, whatever computed the scores, so that
 // every backend and `rank` have one rule.
 class ListChooser {
  public:
@@ -53,11 +53,11 @@ class ListChooser {
 
   // Feasible, plausible grips, in any order, each once a pass.
   void offer(const std::vector<Candidate>& grips);
-  // Of the grips offered in this pass those that may still be chosen: what another chooser with the same progress needs of them.
+  // The grips offered in this pass that may still be chosen: what another chooser with the same progress needs.
   std::vector<Candidate> open_grips() const;
-  // What another chooser with the same progress has found open in this pass: kept without a look at its hands.
+  // What another chooser with the same progress has found open in this pass: kept without checking its hands.
   void add_open(const std::vector<Candidate>& grips);
-  // After all grips of the vessel. `is_complete` says whether another pass is needed. `pose`: who finds the hands of some grips, in
+  // After all grips of the vessel. `is_complete` says whether another pass is needed. `pose`: finds the hands of some grips, in
   // their order, if not this process alone.
   using PoseHands = std::function<Hands(const std::vector<Candidate>& grips)>;
   void end_pass(const PoseHands& pose = {});

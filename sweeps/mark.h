@@ -37,8 +37,8 @@ struct GripCounts {
   std::uint64_t implausible = 0;             // of the feasible
   std::uint64_t antipodal = 0;
   std::uint64_t blocked = 0;  // with a blocked finger
-  // Parts of the implausible: a grip through the table may also have fingers in each other or be beyond the wrist, and then counts twice. All 0 where they
-  // were not told apart.
+  // Parts of the implausible: a grip through the table may also have fingers in each other or be beyond the wrist, and then counts
+  // twice. All 0 where they were not distinguished.
   std::uint64_t through_table = 0, self_overlap = 0, beyond_wrist = 0;
   std::uint64_t only_deep = 0;  // deep in the vessel, and none of the three
   std::uint64_t not_held = 0;   // of the plausible

@@ -65,7 +65,7 @@ class Merge {
     read_mark();
     find_shards();
     const OpenFile result(names_.partial, O_RDWR | O_NOFOLLOW);
-    // file systems that cannot reserve are told apart from those that lack the room
+    // a file system that cannot reserve is no error, one that lacks the room is
     if (fstat(result, &status) != 0 || (fallocate(result, 0, 0, status.st_size) != 0 && errno != EOPNOTSUPP && errno != ENOSYS))
       fail_writing();
     InterruptGuard interrupt;
@@ -174,7 +174,7 @@ class Merge {
           pread(from, buffer_.data(), std::min<std::uint64_t>(place.size, AT_ONCE), static_cast<off_t>(place.offset));
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) throw failure_error(fmt::format("cannot read a shard: {}", std::strerror(errno)));
-      if (got == 0) return;  // the file ends here, as its checksum will tell
+      if (got == 0) return;  // the file ends here, as its checksum will show
       const auto size = static_cast<std::size_t>(got);
       found.add(run, buffer_.data(), size);
       bytes_ += size;

@@ -11,7 +11,7 @@ namespace wholehand {
 
 struct MergeRequest {
   std::string result;                // NAME.nc
-  std::vector<std::string> folders;  // where shards are looked for, beside that of the result
+  std::vector<std::string> folders;  // where the search for shards goes, beside that of the result
 };
 
 // Copies the grips of all shards into NAME.nc.partial, comparing each stretch with the checksum that the sweep's mark has of it, and those of the

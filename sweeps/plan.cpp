@@ -14,7 +14,7 @@
 namespace wholehand {
 namespace {
 
-// Where the number of grips is said.
+// Where the scene sets the number of grips.
 std::string place_of_grips(const Scene& scene) { return scene.grips.place.empty() ? scene.file : scene.grips.place; }
 
 double stored_per_vessel(const Scene& scene) {

@@ -75,7 +75,7 @@ std::vector<const Variable*> needed(const SweepResult& result, const std::vector
   return needed(find_in(result), names, result.path() + ":");
 }
 
-// What tells whether a grip is listed.
+// The variables that decide whether a grip is listed.
 std::vector<std::string> eligible_names(const Scene& scene) {
   return has_effort(scene) ? std::vector<std::string>{"plausible", "not_held"} : std::vector<std::string>{"plausible"};
 }
@@ -104,8 +104,8 @@ bool is_over(const Variable& variable, const char* dim) {
   return std::any_of(variable.dims.begin(), variable.dims.end(), [dim](const char* name) { return std::strcmp(name, dim) == 0; });
 }
 
-// How a sweep comes to have a variable: keep lists all that there is, and also adds to the usual ones. What the file has of it instead
-// may be what is meant, as worst_effort of effort.
+// How a sweep comes to have a variable: `keep` lists all variables, and also adds to the usual ones. Names related variables of the
+// file, as worst_effort for effort.
 std::string remedy_for(const Variable& variable, const SweepResult& result, const Scene& scene) {
   std::vector<std::string> related;
   for (const Variable& other : variable_catalogue())
@@ -184,7 +184,7 @@ class ConditionValues {
     }
   }
 
-  // Those of grip `i` of the block.
+  // The columns of grip `i` of the block.
   const double* row(std::size_t i) {
     for (std::size_t k = 0; k < columns_.size(); ++k) row_[k] = columns_[k][i];
     return row_.data();
@@ -229,7 +229,7 @@ class ConditionValues {
   std::vector<GripInput> grips_;
 };
 
-// Whether set_worst looks at it.
+// Whether set_worst reads it.
 bool is_of_states(int field) {
   return field < REAL_FIELDS && (field_row(field).shape == FieldShape::fills || field_row(field).of_strength);
 }
@@ -246,7 +246,7 @@ std::vector<std::string> row_variables(const Scene& scene) {
   return names;
 }
 
-// Everything that is told of some grips, from the file.
+// All reported figures of some grips, from the file.
 std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel,
                                 const std::vector<Candidate>& candidates) {
   std::vector<std::uint64_t> grips;

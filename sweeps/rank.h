@@ -49,7 +49,7 @@ struct RankRequest {
 struct Ranking {
   std::vector<std::vector<BestGrip>> lists;  // as of GripLists, the best first
   std::vector<std::uint64_t> matching;       // grips of each list that are eligible and meet the condition,
-  std::vector<std::uint64_t> plausible;      // of so many that are feasible and plausible,
+  std::vector<std::uint64_t> plausible;      // out of these feasible and plausible ones,
   std::vector<std::uint64_t> not_held;       // less these
   std::vector<std::uint64_t> at_gate;        // of the plausible, as in GripCounts; 0 where the file lacks worst_effort
   std::string note;                          // for the user: what is not from the file; empty: everything is

@@ -46,7 +46,7 @@ RefinedPlace search_box(const std::array<double, REFINED_COORDINATES>& start, co
 
 // Sets `refined` and `refined_score` of the first MOST_REFINED grips of each list by the core: whatever scored them, a refined
 // score is the core's in double precision. They stay NaN where the core finds no feasible, plausible grip in the box. The order of
-// the lists stays. `is_asked_to_end`, by any thread, is looked at before each grip. False: it was true, and some are not refined.
+// the lists stays. `is_asked_to_end`, by any thread, is checked before each grip. False: it was true, and some are not refined.
 bool refine_lists(const Evaluator& core, const Scene& scene, const Plan& plan, int threads,
                   std::vector<std::vector<BestGrip>>& lists, const std::function<bool()>& is_asked_to_end = {});
 

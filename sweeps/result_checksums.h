@@ -38,7 +38,7 @@ struct ChecksumParts {
 std::uint64_t checksum_room(const std::string& variable, std::uint64_t vessels, std::uint64_t bytes);
 inline constexpr std::uint64_t CHECKSUM_START_ROOM = 256;
 
-// By HDF5, from a file that nobody writes to meanwhile. Throws Error (failure).
+// By HDF5, from a file that no process writes to meanwhile. Throws Error (failure).
 ChecksumParts checksum_parts(const std::string& path);
 
 // The checksum of a block of a part of an open file. Throws Error (failure): the file lacks it, or cannot be read.
@@ -47,7 +47,7 @@ std::string block_checksum(int file, const ChecksumPart& part, std::uint64_t blo
 // Finds the checksums that are not known yet, writes all into the open file `path`, and syncs it: the last change of a result. Throws Error (failure).
 void write_checksums(int file, const std::string& path, ChecksumParts parts);
 
-// The checksums of a file that is read. Values are compared with theirs when somebody is about to use them, once.
+// The checksums of a file that is read. Values are compared with theirs before their first use, once.
 class ResultChecksums {
  public:
   // `text`: what the variable CHECKSUMS of the file holds. Compares all that is not a value of a part. Throws Error (usage), one line with the

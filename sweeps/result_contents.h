@@ -55,7 +55,7 @@ std::string refined_axis_name(const PlanAxis& axis);
 bool is_refined_axis(const PlanAxis& axis);
 std::string best_scale_dimension(const Plan& plan);  // of the hand scales; Sobol points have a variable of the plain name
 
-// Of a scene with meshes: from where relative mesh files are looked for, and what tells that they are still the same (objects/vessel.h).
+// Attributes of a scene with meshes: where relative mesh files are searched from, and what identifies them (objects/vessel.h).
 constexpr const char* SCENE_FILE = "scene_file";
 constexpr const char* MESHES = "meshes";
 constexpr const char* MESH_KEYS = "mesh_keys";

@@ -67,7 +67,7 @@ ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents,
     set_blocks();
     struct stat status {};
     if (fstat(file_, &status) != 0) fail("read", errno);
-    // file systems that cannot reserve are told apart from those that lack the room
+    // a file system that cannot reserve is no error, one that lacks the room is
     if (start == FileStart::reserved && fallocate(file_, 0, 0, status.st_size) != 0 && errno != EOPNOTSUPP && errno != ENOSYS)
       fail("reserve room for", errno);
     if (open_output) output_ = open_output(names_.partial);
@@ -92,7 +92,7 @@ ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents,
   }
 }
 
-// A new file under the old name: never onto what somebody may still have open.
+// A new file under the old name: never over one that may still be open elsewhere.
 void ResultFile::create(FileStart start) {
   unlink(names_.mark.c_str());
   if (unlink(names_.partial.c_str()) != 0 && errno != ENOENT) fail("replace", errno);

@@ -25,7 +25,7 @@ struct FilePlaces {
   std::vector<std::uint64_t> axes;       // the axes' values at Sobol points; empty for a grid
   std::optional<std::uint64_t> height;   // the vessels' heights in m at Sobol points, where their axis has fractions
   std::vector<std::uint64_t> best;       // best_grip, best_score, axes; refined score, axes; robust scores
-  FileRange checksums;                   // known to who made the file alone
+  FileRange checksums;                   // known only to the process that made the file
 };
 
 // How a file begins: new, with room for all of it; new, where other files take most of the values; or as an earlier sweep has left it.
@@ -63,11 +63,11 @@ class ResultFile {
   const FilePlaces& places() const { return places_; }
   const RunLayout& layout() const { return layout_; }
   const std::string& path() const { return names_.partial; }
-  std::uint64_t inode() const;  // tells the file from others of its name on other machines
+  std::uint64_t inode() const;  // distinguishes the file from others of its name on other machines
   // Throws where another file, or none, has the name now: another job took it, one that no lock kept away. To be called before anything is done under
   // that name, such as saving a mark.
   void check_own() const;
-  // Whether the file keeps what tells the grips that may be listed; and those of the grips [first, last) of a vessel, from the file as it is
+  // Whether the file keeps what decides which grips may be listed; and those of the grips [first, last) of a vessel, from the file as it is
   // now, whoever wrote it.
   bool has_eligible() const;
   std::vector<Candidate> eligible(std::size_t vessel, std::uint64_t first, std::uint64_t last) const;
@@ -127,7 +127,7 @@ class ResultFile {
   Stretch stretch_;
   std::size_t stretch_vessel_ = 0;
   std::string structure_;
-  int sync_error_ = 0;  // stays: the system tells of lost values once
+  int sync_error_ = 0;  // stays: the system reports lost values once
   std::uint64_t bytes_ = 0;
   double seconds_ = 0;
 };

@@ -64,7 +64,7 @@ class RobustRanking {
     std::vector<Judged*> everyone;
     for (Judged& one : judged_) everyone.push_back(&one);
     if (!judge(everyone, 0, 1)) return false;
-    // Those that look best so far first: they soon say what the others have to reach.
+    // The best so far come first: they soon set what the others have to reach.
     const std::vector<Judged*> likely = likely_ones();
     for (std::size_t part = 1, end; part < PARTS; part = end) {
       for (end = part + 1; end < PARTS && level_of(end) == level_of(part);) ++end;  // at once, so that no thread waits between them
@@ -134,7 +134,7 @@ class RobustRanking {
     return likely;
   }
 
-  // Those at whose turn this part is, and that may still get ahead of the last whole grip with a place.
+  // The grips whose next part is this one, and that may still get ahead of the last whole grip with a place.
   std::vector<Judged*> open_ones(std::size_t part) {
     const std::vector<std::vector<Judged*>> whole = by_list(true);
     std::vector<Judged*> open;

@@ -34,7 +34,7 @@ struct Deviation {
 // deviation of the friction those from `level` * count / FRICTION_LEVELS on have the friction of that level, see robust_frictions.
 std::vector<Deviation> deviations(const RobustData& robust);
 // The friction of each level, not below 0: mu plus its deviation times the quantile of the middle of that eighth, over the standard
-// deviation of these eight quantiles (0.9225), so that the levels have the deviation that the scene asks for. Of one level where
+// deviation of these eight quantiles (0.9225), so that the levels have the deviation that the scene asks for. One level where
 // the friction has no deviation.
 std::vector<double> robust_frictions(const Scene& scene);
 // The same hand beyond an obliquity of 90 degrees is named from the other side: azimuth and roll half a turn on, and the offset

@@ -14,7 +14,7 @@
 namespace wholehand {
 namespace {
 
-// What tells a hand from the default one beside scale and side.
+// What distinguishes a hand from the default one beside scale and side.
 HandData build_of(const Scene& scene) {
   HandData build = scene.hand;
   build.place = "";
@@ -44,7 +44,7 @@ std::string arm_text(const Scene& scene) {
   return "shoulder at " + joined(place, ", ") + " mm";
 }
 
-// What a vessel's own force_range_N replaces is not here.
+// The scene's own forces; a vessel's own force_range_N is not compared.
 auto force_of(const Scene& scene) {
   const ForceData& force = scene.force;
   return std::tuple(scene.pose, scene.gravity, force.base, force.range, force.torque, force.reference, force.max, force.friction,

@@ -27,13 +27,13 @@ enum RulePlace : std::size_t {
   RULE_COUNT
 };
 
-// Those of a scene by RulePlace, in words: a result has them in its attribute `rules`.
+// The rules of a scene by RulePlace, in words: a result has them in its attribute `rules`.
 std::array<Rule, RULE_COUNT> rules_of(const Scene& scene);
 
 // Their names, with commas between.
 std::string rule_names();
 
-// Which of them two scenes share, whether the words tell or not.
+// Which of them two scenes share, whether or not the words show it.
 std::array<bool, RULE_COUNT> shared_rules(const Scene& a, const Scene& b);
 
 // Weights of the score's terms, without those of weight 0: "depth 0.69, force 0.13".

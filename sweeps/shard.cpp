@@ -44,7 +44,7 @@ void make_shard(const std::string& path, const std::string& id, const RunLayout&
   for (const std::uint64_t offset : layout.axes) lowest = std::min(lowest, offset);
   if (lowest < line.size()) throw failure_error(path + ": the result's values leave no room for the first line of a shard");
   check_overwrites_kind(path, SHARD_START, "shard", "--shards");
-  // a new file under the old name: never onto what somebody may still have open
+  // a new file under the old name: never over one that may still be open elsewhere
   write_whole_file(path, line, true);
 }
 

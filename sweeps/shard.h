@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a node writes in a sweep by machines that share no file system: the values of its grips, at the places that they have in the result. Nothing is
-// stored for the places between them.
+// What a node writes in a sweep by machines that share no file system: the values of its grips, at their places in the result. The places
+// between them store nothing.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ std::string new_shard_id();
 // Whether a shard of this sweep is there.
 bool is_shard(const std::string& path, const std::string& id);
 
-// Why what is at this path is no shard of the sweep that is looked for; empty: nothing is there.
+// Why what is at this path is no shard of the wanted sweep; empty: nothing is there.
 std::string why_no_shard(const std::string& path);
 
 // Makes an empty shard, in place of any other. Throws Error: (usage) what is there is no shard, and stays; (failure) it cannot be made, or the layout

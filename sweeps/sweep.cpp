@@ -36,7 +36,7 @@ namespace wholehand {
 namespace {
 
 constexpr double MARK_SHARE = 0.02;           // of the time, at most, for marks
-constexpr off_t LONG_CHECK = 1'000'000'000;   // bytes of a partial file: from here on it is said that they are read
+constexpr off_t LONG_CHECK = 1'000'000'000;   // bytes of a partial file: from here on a note says that they are read
 constexpr std::uint64_t MOST_STRETCHES = 64;  // of a vessel's grips with a checksum each, and one more for each --resume
 
 double since(double start) { return monotonic_now() - start; }
@@ -53,7 +53,7 @@ Sweep::Sweep(const Scene& scene, const SweepOptions& options, const SweepParts& 
       variables_(choose_variables(scene)),
       mark_interval_(options.mark_seconds) {}
 
-// What can be refused before any work, meshes unread.
+// Refuses what it can before any work, meshes unread.
 void Sweep::check() const {
   check_output_path(names_.result);
   if (options_.glb > static_cast<int>(best_wanted_)) {
@@ -76,7 +76,7 @@ void Sweep::check_room() const {
   struct stat partial {};
   const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
   const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
-  // a shard takes what its node computes, which nobody knows yet
+  // a shard takes what its node computes, which is unknown yet
   const double room = options_.shards ? std::numeric_limits<double>::infinity() : free_bytes(names_.target) + reserved;
   SweepSize size = sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size));
   if (size.grips <= LARGEST_SWEEP) {
@@ -166,8 +166,8 @@ std::size_t Sweep::candidates() const { return robust_candidates(scene_, best_wa
 std::size_t Sweep::kept_best() const { return is_choosy() ? pool() : candidates(); }
 ListRequest Sweep::list_request() const { return {candidates(), scene_.output.apart, pool(), options_.threads}; }
 bool Sweep::ranks_here() const { return best_wanted_ > 0 && (is_choosy() || plan().hand_scales() > 1); }
-// What is read back: a device chooses a few of the best of all hands together. Of several hand scales, and where grips have to
-// differ, the scores are chosen from here.
+// The fields that are read back. A device chooses a few of the best over all hands together; with several hand scales, and where grips
+// have to differ, the host chooses from the scores.
 std::vector<int> Sweep::swept_fields() const {
   const std::vector<int> kept = variable_fields(variables_);
   std::set<int> fields(kept.begin(), kept.end());
@@ -439,7 +439,7 @@ void Sweep::remember(const std::vector<Candidate>& eligible, std::size_t of_grip
   remembered_count_ += of_grips;
 }
 
-// A further pass over scores that are known. An interrupt is looked at before the next one.
+// A further pass over scores that are known. An interrupt is checked before the next pass.
 void Sweep::pass_remembered(ListChooser& chooser) const {
   constexpr std::size_t AT_ONCE = 1 << 16;
   std::vector<Candidate> eligible;
@@ -557,7 +557,7 @@ Ranking Sweep::rank_finished(const RankRequest& request) const {
   return rank_grips(result, scene_, plan(), own, parts_.open_evaluator);
 }
 
-// What there is to say where no grip of a vessel holds.
+// The note for a vessel of which no grip holds.
 std::string Sweep::unheld(std::size_t v) const {
   const GripCounts& counts = mark_.vessels[v].counts;
   if (!counts.none_holds() || !counts.least_bad.is_known()) return "";

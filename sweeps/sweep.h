@@ -44,16 +44,16 @@ class Sweep {
   virtual ExitCode run();
 
  protected:
-  // What can be refused before any work, meshes unread.
+  // Refuses what it can before any work, meshes unread.
   void check() const;
   // Whether there is nothing to resume since the result is complete, and the words for that.
   bool is_finished() const;
   ExitCode finished() const;
   // Meshes, warnings, devices: after this plan(), backend_, evaluator_ and facts_ are there. Where parts_ have changed options_.on, and with it the
-  // precision, the room on the disk is looked at again.
+  // precision, the room on the disk is checked again.
   void open();
   void say_opening() const;
-  // A note goes to who asked for the notes, else to standard error; what is printed is not, where somebody asked for them.
+  // A note goes to options.note where that is set, and print_text then prints nothing; else to standard error.
   void note(const std::string& line) const;
   void print_text(const std::string& text) const;
   bool is_quiet() const { return static_cast<bool>(options_.note); }
@@ -83,7 +83,7 @@ class Sweep {
   double gate(std::size_t vessel) const;  // gate_tolerance (core/tolerances.h)
   std::map<std::string, std::string> identity() const;
   bool is_choosy() const;                       // whether the best grips have to differ
-  bool refines() const;                         // whether better grips are looked for near the best ones
+  bool refines() const;                         // whether it searches for better grips near the best ones
   std::size_t candidates() const;               // grips of a list of which the best are chosen in the end
   std::size_t pool() const;                     // grips of a list that one pass keeps
   std::size_t kept_best() const;                // grips of a list that are kept until all grips are there
@@ -110,7 +110,7 @@ class Sweep {
   std::vector<const Variable*> variables_;
   std::optional<Plan> plan_;
   std::unique_ptr<Backend> backend_;
-  BackendInfo info_;                      // of who computes: the backend's
+  BackendInfo info_;                      // the backend's
   BackendInfo identified_;                // the same as a mark has it: of ranks without how many there are
   std::unique_ptr<Evaluator> evaluator_;  // that poses and refines the best grips; null where neither is asked for
   std::vector<VesselFacts> facts_;

@@ -35,7 +35,7 @@ struct SweepOptions {
   // Takes the notes beside the work, a line each. Where it is set, the sweep is part of another program: nothing is printed, and no progress is
   // shown. Empty: notes go to standard error.
   std::function<void(const std::string&)> note = {};
-  // Why it runs where it runs, one line without its end, and for --explain several; empty: nothing is said.
+  // Why it runs where it runs, one line without its end, and for --explain several; empty: nothing is printed.
   std::string choice = {}, choice_explained = {};
   // Called at the end of a sweep that was not resumed, with the grips that were evaluated. May be empty.
   std::function<void(const SweepTimes&, std::uint64_t, const BackendInfo&)> took = {};
@@ -44,7 +44,7 @@ struct SweepOptions {
   std::size_t remembered = std::size_t{1} << 22;
   double time_limit = 0;    // s after `started` at which the sweep ends as if interrupted; 0: none
   double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
-  // Of many machines that share no file system: who of them writes into one file; empty: who is on one node. Absent: all write into one.
+  // For machines without a shared file system: those with the same name write into one file; empty: those of a node. Absent: all into one.
   std::optional<std::string> shards = {};
   double piece_seconds = 2;          // what a rank of a cluster takes at a time, at least
   double started = monotonic_now();  // s of the clock: when the work was asked for, for the closing lines

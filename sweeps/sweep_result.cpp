@@ -29,7 +29,7 @@ namespace {
 constexpr std::size_t AT_ONCE = 1 << 18;        // values
 constexpr std::uint64_t SEEK_IN_VALUES = 4096;  // reading one value alone takes as long as so many in a row
 
-// Throws where the file is none that a sweep finished, as far as its name and its first bytes tell; returns the path.
+// Throws where the file is none that a sweep finished, by its name and first bytes; returns the path.
 const std::string& check_is_result(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {

@@ -44,8 +44,7 @@ struct Variable {
   bool has_missing() const { return type == NumberType::real || (bits == 0 && !always); }
 };
 
-// What there is to add to a variable's name in a result of the scene: its comment, and what leaving out tilts does to it. May be
-// empty.
+// A variable's comment in a result of the scene, with what leaving out tilts does to it. May be empty.
 std::string variable_comment(const Variable& variable, const Scene& scene);
 
 // Every variable there is, in the order of the result file.

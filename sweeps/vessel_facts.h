@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a result file tells of the vessels themselves.
+// The facts on the vessels themselves in a result file.
 #pragma once
 
 #include <vector>

@@ -211,7 +211,7 @@ class WhereParser {
     return false;
   }
 
-  // What `other`, compared with a name, is in the units of the name's value. As a scene's numbers are converted, so that == finds them.
+  // Converts `other`, compared with a name, into the units of the name's value, exactly as a scene's numbers, so that == finds them.
   static void unite(const Part& side, const Part& other, Where::Operand& operand) {
     if (!side.name) return;
     if (other.name) {

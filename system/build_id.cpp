@@ -12,7 +12,7 @@ namespace {
 
 std::size_t padded(std::size_t size) { return (size + 3) & ~std::size_t{3}; }
 
-// The first object is the program itself; nothing after it is looked at.
+// The first object is the program itself; the others are skipped.
 int read_program(dl_phdr_info* info, std::size_t, void* out) {
   std::string& id = *static_cast<std::string*>(out);
   for (int i = 0; i < info->dlpi_phnum; ++i) {

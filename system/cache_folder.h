@@ -24,7 +24,7 @@ struct CacheUse {
   std::uintmax_t bytes = 0;
 };
 
-// Of the files in `folder` that the program keeps there, finished or begun. Files with other names are not counted.
+// Counts the files that the program keeps in `folder`, finished or begun. Files with other names do not count.
 CacheUse cache_use(const std::string& folder);
 
 // A line about what is kept between runs: where, how large, and how large it may become. Throws Error (usage) as cache_limit does.

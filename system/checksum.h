@@ -34,7 +34,7 @@ std::string checksum_text(const void* data, std::size_t size);
 // 64 bits of it, which depend on `before` as well.
 std::uint64_t checksum_after(std::uint64_t before, const void* data, std::size_t size);
 
-// So many bytes of a file from a place on.
+// `size` bytes of a file from `offset` on.
 struct FileRange {
   std::uint64_t offset = 0, size = 0;
   bool operator==(const FileRange&) const = default;

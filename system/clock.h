@@ -8,7 +8,7 @@ namespace wholehand {
 // s since some moment; never steps. A signal handler may ask, too.
 double monotonic_now() noexcept;
 
-// Sleeps so many seconds.
+// Sleeps for `seconds`.
 void pause_for(double seconds);
 
 }  // namespace wholehand

@@ -179,7 +179,7 @@ void make_output_folder(const std::string& path) {
     std::string name = path;
     while (name.size() > 1 && name.ends_with('/')) name.pop_back();
     const std::string parent = folder_of(name);
-    // nothing is known of a parent that may not be looked at
+    // with EACCES nothing is known of the parent
     if (is_misnamed && (stat(parent.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)))
       throw usage_error(fmt::format("-o {}: {} is not a directory; create it or name another", path, parent));
     throw Error(is_misnamed ? ExitCode::usage : ExitCode::failure,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C, a terminal that closes and termination as a flag that work looks at between chunks.
+// Ctrl-C, a terminal that closes and termination as a flag that work checks between chunks.
 #pragma once
 
 #include <csignal>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a long run is done: a file that grows by a line with each part of it, so that an interrupted run goes on where it ended.
+// The done part of a long run: a file that grows by a line with each part, so that an interrupted run resumes where it ended.
 #pragma once
 
 #include <cstddef>

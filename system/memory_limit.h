@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The limit that whoever started the process has set on its memory, for messages: where memory is short, it is the likeliest reason.
+// The memory limit of the process, for messages: where memory is short, it is the likeliest reason.
 #pragma once
 
 #include <sys/resource.h>

@@ -31,7 +31,7 @@ bool write_whole(int descriptor, const char* data, std::size_t size) {
     if (written >= 0) {
       data += written;
       size -= static_cast<std::size_t>(written);
-    } else if (errno == EAGAIN) {  // whoever started the program made it so
+    } else if (errno == EAGAIN) {  // the parent process made it so
       pollfd ready{descriptor, POLLOUT, 0};
       poll(&ready, 1, -1);
     } else if (errno != EINTR) {

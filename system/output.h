@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Standard output and standard error that never stop the work: what cannot be written is lost, and told at the end.
+// Standard output and standard error that never stop the work: what cannot be written is lost, and reported at the end.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 namespace wholehand {
 
 // Call first in main. Files that are opened later do not take the place of closed standard streams; a closed pipe is no signal; and `stdout` and
-// `stderr` become streams on which no write fails, so that nobody who prints needs to think of it. What standard error does not take is
-// lost. What standard output does not take is lost too, and finish_output() tells so.
+// `stderr` become streams on which no write fails, so that printing code need not care. What standard error does not take is
+// lost. What standard output does not take is lost too, and finish_output() reports it.
 void prepare_output();
 
 // Writes `text` to standard output at once. Here and in what follows, what steers a terminal is replaced (core/printable.h): only line feeds and tabs

@@ -38,7 +38,7 @@ std::string own_node() {
   return name.data();
 }
 
-// Who the lock's file says has it. A number means nothing on another machine.
+// The holder that the lock's file names. A process number means nothing on another machine.
 struct Holder {
   pid_t process = 0;  // 0: nobody
   std::string node;   // empty: this one
@@ -76,7 +76,7 @@ Taken try_lock(const std::string& path, int file) {
     const bool is_known = other.process > 0 && other.process != getpid() && other.node.empty();
     if (is_known && (kill(other.process, 0) == 0 || errno == EPERM)) return Taken::no;
   }
-  // who held it removed the file meanwhile: this lock is on nothing
+  // its holder removed the file meanwhile: this lock is on nothing
   return is_at(path, file) ? Taken::yes : Taken::retry;
 }
 
@@ -122,7 +122,7 @@ OutputLock::OutputLock(const std::string& path, const char* what) : path_(path) 
 
 OutputLock::~OutputLock() {
   if (file_ < 0) return;
-  unlink(path_.c_str());  // while it is held: who waits finds another file at this name
+  unlink(path_.c_str());  // while it is held: waiting processes find another file at this name
   close(file_);
 }
 

@@ -8,7 +8,7 @@ namespace wholehand {
 
 // Held from before anything of a result is made or removed until it is whole or given up. The kernel releases it with the process,
 // however that ends; the file that stays then is no obstacle. Where a file system knows no locks, the process that the file names
-// decides, as long as it lives here; of one on another machine nobody can tell, and it is no obstacle (see ResultFile::check_own).
+// decides, as long as it lives here; one on another machine is unknown here and no obstacle (see ResultFile::check_own).
 class OutputLock {
  public:
   // `path`: of the lock's own file, made where it is not there. `what` -o names, for messages: "file" or "folder". Throws Error:

@@ -41,7 +41,7 @@ std::vector<Include> includes_of(const std::string& file, const std::string& tex
   return found;
 }
 
-// Of every C++ file of the folders that have a floor.
+// The includes of every C++ file of the folders that have a floor.
 std::vector<Include> all_includes() {
   std::vector<Include> found;
   for (const auto& [folder, floor] : floors())
@@ -108,7 +108,7 @@ TEST(Folders, NoTwoFilesNeedEachOther) {
   for (const std::string& circle : circles(all_includes())) ADD_FAILURE() << "a circle: " << circle;
 }
 
-// A folder that nobody gave a floor would be looked at by neither.
+// Neither test above would check a folder without a floor.
 TEST(Folders, EveryFolderHasAFloor) {
   const auto floor = floors();
   for (const auto& entry : fs::directory_iterator(WHOLEHAND_SOURCE_DIR)) {
@@ -120,7 +120,7 @@ TEST(Folders, EveryFolderHasAFloor) {
   }
 }
 
-// What other files list by name: the source archive of the Python package, and the headers that clang-tidy looks at.
+// What other files list by name: the source archive of the Python package, and the headers that clang-tidy checks.
 TEST(Folders, NoListLacksOne) {
   const fs::path root = WHOLEHAND_SOURCE_DIR;
   const std::string archive = "\n" + file_text(root / "MANIFEST.in"), tidy = file_text(root / ".clang-tidy");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linked into what runs under the leak sanitizer: keeps lavapipe and the validation layer loaded to the end of the process.
-// Lavapipe leaks
-// 128 bytes when it is unloaded, and a leak in a library that is no longer there can be told from ours neither by a suppression nor
-// by a reader.
+// Linked into what runs under the leak sanitizer: keeps lavapipe and the validation layer loaded to the end of the process. Lavapipe
+// leaks 128 bytes when it is unloaded, and neither a suppression nor a reader can distinguish a leak in an unloaded library from ours.
 #include <dlfcn.h>
 
 #include <initializer_list>

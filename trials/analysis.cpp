@@ -213,8 +213,7 @@ std::vector<Disagreement> find_disagreements(const TriedGrips& tried) {
   return chosen;
 }
 
-// Of the best grips of a vessel those that hold in every trial for which effort says at most SURE_EFFORT. A grip without such a
-// trial shows nothing.
+// The best grips of a vessel that hold in every trial whose effort is at most SURE_EFFORT. A grip without such a trial does not count.
 struct SurelyHeld {
   Share held;
   std::size_t discarded = 0, without = 0;  // grips that are not in it: a trial was discarded, or none is sure

@@ -15,7 +15,7 @@
 
 namespace wholehand {
 
-// Trials that are told of together: a sample under a protocol, and with which material where it is six_forces.
+// Trials that are reported together: a sample under a protocol, and with which material where it is six_forces.
 struct TrialGroup {
   TrialSample sample = TrialSample::stratified;
   TrialProtocol protocol = TrialProtocol::fill_tilt;
@@ -72,8 +72,8 @@ enum TrialPredictorName : std::size_t {
 extern const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES;
 constexpr bool is_by_trial(std::size_t predictor) { return predictor >= BY_LEG_EFFORT; }
 
-// What a predictor says of the grips of a group, or of its trials: larger is better. By grip, success is to hold in every trial,
-// and grips with a discarded trial are left out. By trial, only those that tell of their own state (is_telling) are there.
+// A predictor's values for the grips of a group, or for its trials: larger is better. By grip, success is to hold in every trial,
+// and grips with a discarded trial are left out. By trial, only those that test their own state (is_telling) are there.
 std::vector<Prediction> predictions_of(const TriedGrips& tried, const TrialGroup& group, std::size_t predictor);
 
 struct PredictorRow {
@@ -127,7 +127,7 @@ struct ScatterAnalysis {
   std::optional<WeightTrial> weights;  // by the placements of the stratified sample
 };
 
-// Of fewer a bar is not judged, as its interval would say too little: where 10 of 10 hold, it may be 72 % in truth.
+// A bar with fewer is not judged, as its interval is too wide: where 10 of 10 hold, the true share may be 72 %.
 constexpr std::size_t LEAST_JUDGED = 10;  // successes, and as many failures, of an AUC; grips of a share
 
 // A bar of the task.

@@ -101,7 +101,7 @@ class HandWriter {
     model.geoms.push_back(name);
   }
 
-  // Where a segment stands in its finger's plane, rad.
+  // Angle of a segment in its finger's plane, rad.
   double segment_angle(int finger, int bone) const {
     const auto& plane = hand_.fingers[static_cast<std::size_t>(finger)];
     const Vec3 along = joint(finger, bone + 1) - joint(finger, bone);

@@ -17,9 +17,9 @@
 
 namespace wholehand {
 
-// Of each joint, times the square of the way from it to the tip along the bones. Three joints in a row make a tip of a third of
-// each: 500 N/m, 8 N s/m, 17 g, within what people have (200 to 800 N/m, 1 to 8 N s/m, 4 to 20 g; Hajian & Howe 1997). Of a slide,
-// which is a tip by itself, a third. A lighter or less damped finger that leaves the vessel for a step strikes it in the next one.
+// For each joint, times the square of its distance from the tip along the bones. Three joints in a row give a tip a third of each:
+// 500 N/m, 8 N s/m, 17 g, within what people have (200 to 800 N/m, 1 to 8 N s/m, 4 to 20 g; Hajian & Howe 1997). A slide is a tip
+// by itself and has a third. A lighter or less damped finger that leaves the vessel for a step strikes it in the next one.
 constexpr double JOINT_STIFFNESS = 1500, JOINT_DAMPING = 24, JOINT_INERTIA = 50e-3;  // N/m, N s/m, kg
 constexpr double FLESH = 1100;                                                       // kg/m3
 constexpr double THINNEST = 0.5e-3;                                                  // m: a bare point is a body too
@@ -67,7 +67,7 @@ GraspModel articulated_hand(const PreparedHand& hand, const HandData& data, cons
 // Each contact a sphere of its joint's size on a slide along its normal.
 GraspModel sliding_contacts(std::span<const double> radii, const GraspContacts& contacts);
 
-// The joints of a posed hand as an articulated one has moved them. `place` and `rotation` (rows) tell where a body is.
+// The joints of a posed hand as an articulated one has moved them. `place` and `rotation` (rows): where a body is.
 struct BonePlace {
   Triple place{};
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};

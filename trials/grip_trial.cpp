@@ -17,7 +17,7 @@ namespace {
 
 using core_f64::Vec3;
 
-constexpr int LOOK_STEPS = 5;    // between two looks at where the vessel is
+constexpr int LOOK_STEPS = 5;    // between two checks of where the vessel is
 constexpr int WEIGH_STEPS = 20;  // between two changes of its mass while it pours
 
 double number_or(double number, double otherwise) { return std::isnan(number) ? otherwise : number; }

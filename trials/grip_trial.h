@@ -48,7 +48,7 @@ class GripTrial {
   HeldBody& body();  // throws EngineTrouble where there is none
   // Closes the hand on the pinned vessel and lets go. What is wrong with the start, if anything.
   TrialReason close(const State& state);
-  // Goes on for a time; false once the vessel is lost, which `outcome` then tells.
+  // Goes on for a time; false once the vessel is lost, which `outcome` then has.
   bool watch(double duration, double tilt, TrialOutcome& outcome, TrialTrack* track);
   bool turn(double fill, State& state, double from, double to, TrialOutcome& outcome, TrialTrack* track);
   bool look(double tilt, TrialOutcome& outcome);

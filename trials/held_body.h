@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A body in a grasp, in the engine: pinned, let go, pushed and looked at. docs/trials-model.md says why each option is as it is.
+// A body in a grasp, in the engine: pinned, let go, pushed and observed. docs/trials-model.md says why each option is as it is.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@
 namespace wholehand {
 
 constexpr double TIME_STEP = 2e-3;  // s
-// The engine looks for contacts only of what is nearer to the body than NEAR. That is asked again every NEAR_STEPS, and at once
-// when hand and body may have come nearer to each other by SURE since: no pair that touches is left out.
+// The engine searches for contacts only of geoms nearer to the body than NEAR. A new check comes every NEAR_STEPS, and at once when hand
+// and body may have come nearer to each other by SURE since: no pair that touches is left out.
 constexpr double NEAR = 5e-3, SURE = 4e-3;  // m; what lies between is more than a lattice's distance is off
 constexpr int NEAR_STEPS = 5;
 constexpr int MOST_CONTACTS = 100;  // six with four points each take 24
@@ -39,8 +39,7 @@ struct HeldSetup {
   RigidLoad load;
   // Which geom of the hand may touch which of the body, by place in their lists; empty: each may touch each.
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  // Signed distance to the body at a point of its frame, m, or less. Empty, or without boxes: all pairs are always
-  // looked at.
+  // Signed distance to the body at a point of its frame, m, or less. Empty, or without boxes: all pairs are always checked.
   std::function<double(const core_f64::Vec3&)> distance;
   int most_contacts = MOST_CONTACTS;  // that the engine has room for; more is trouble, and never unnoticed
 };
@@ -105,8 +104,7 @@ class HeldBody {
   std::vector<Anchor> anchors_;
   core_f64::Vec3 push_{};
   double time_ = 0;
-  // Since pairs were last looked at: steps, and the most by which hand and body may have come nearer, m. Infinite: nobody has
-  // looked.
+  // Since the last check of pairs: steps, and the most by which hand and body may have come nearer, m. Infinite: no check yet.
   int steps_ = 0;
   double nearer_ = std::numeric_limits<double>::infinity(), last_step_ = nearer_;
   double body_reach_ = 0;  // m, of the body's farthest point from its origin

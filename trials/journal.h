@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of trials is done: a file that grows by a line with each grip, so that interrupted trials go on where they ended.
+// The done part of trials: a file that grows by a line with each grip, so that interrupted trials resume where they ended.
 #pragma once
 
 #include <cstddef>

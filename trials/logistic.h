@@ -16,7 +16,7 @@ namespace wholehand {
 constexpr std::size_t SCORE_TERM_COUNT = 6;
 
 // Each weight is at least this share of their sum. A scene without tilts has no terms of force and hold: there a fit that gives all
-// to these two would leave nothing to tell its grips apart.
+// to these two would leave nothing to rank its grips by.
 constexpr double LEAST_WEIGHT = 0.02;
 
 // A grip with the terms of its score, each in [0, 1], and what became of it.
@@ -38,7 +38,7 @@ struct LogisticFit {
 };
 LogisticFit fit_logistic(std::span<const TermedGrip> grips);
 
-// The coefficients as weights of a score: the sum is 1. All 0 where no term tells successes from failures.
+// The coefficients as weights of a score: the sum is 1. All 0 where no term separates successes from failures.
 std::array<double, SCORE_TERM_COUNT> weights_of(const LogisticFit& fit);
 
 // AUCs of the fitted and of the given weights, and the first less the second.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo, loaded at run time by whoever has it: nothing of it is needed to run the rest of the program.
+// MuJoCo, loaded at run time where it is installed: the rest of the program needs nothing of it.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -63,7 +63,7 @@ class Simulation {
   // anything or has a number that is none: what it then holds is of no use until `reset`.
   void step();
   void forward();
-  // To be called after masses or inertias of the model are changed. Keeps the state. Throws as `step`.
+  // Call after masses or inertias of the model change. Keeps the state. Throws as `step`.
   void set_constants();
   void reset();
   int id(mjtObj kind, const std::string& name) const;  // -1: none

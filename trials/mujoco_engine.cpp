@@ -28,7 +28,7 @@ class MujocoEngine final : public TrialEngine {
     check_hand();
     std::vector<TrialOutcome> outcomes(cases.size());
     if (tracks) tracks->assign(cases.size(), {});
-    // a model of its own for every grip and every call: the same bits whoever else is at work
+    // a model of its own for every grip and every call: the same bits whatever other threads do
     GripTrial trial(library_, scene_, evaluator_, settings_, vessel, form(vessel), grip);
     tilt(trial, cases, outcomes, tracks);
     push(trial, cases, outcomes, tracks);

@@ -30,7 +30,7 @@ struct TrialOptions {
   std::size_t scatter = 0;  // placements of each grip with deviations of [robust]; 0: none
   bool quick = false;
   bool resume = false;
-  std::size_t most_looked = std::size_t{1} << 18;  // grips of a vessel whose scores are looked at for the sample
+  std::size_t most_looked = std::size_t{1} << 18;  // grips of a vessel whose scores are considered for the sample
 };
 
 // Fewer grips and states, for less than a minute. After the protocol, on which it depends.

@@ -23,7 +23,7 @@ constexpr std::pair<const char*, const char*> CONTENTS[] = {{"bars", "The bars"}
                                                             {"disagreements", "Where effort and engine disagree"},
                                                             {"words", "The words"}};
 
-// In a narrow window, and on paper, words and intervals wrap, so that a bar's outcome stands in sight. What is wider still scrolls
+// In a narrow window, and on paper, words and intervals wrap, so that a bar's outcome stays in sight. What is wider still scrolls
 // in its own box.
 constexpr const char* TRIALS_RULES = R"css(
 @media (max-width: 60rem), print {

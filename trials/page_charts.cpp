@@ -142,7 +142,7 @@ void write_calibration(MarkupWriter& html, const GroupEfforts& efforts, const st
   }
   const Confusion& c = efforts.confusion;
   const bool has_both = c.held_as_said + c.held_though_not > 0 && c.lost_as_said + c.lost_though_said > 0;
-  if (chart.x.size() < 2 || !has_both) return;  // a level line tells nothing that the table does not
+  if (chart.x.size() < 2 || !has_both) return;  // a level line shows nothing that the table does not
   chart.lines.assign(lines.begin(), lines.end());
   html.open("div", {{"class", "chart"}}).element("h4", name);
   write_chart(html, chart);

@@ -38,7 +38,7 @@ struct GripPrediction {
   std::array<double, SCORE_TERM_COUNT> terms{};  // fingers, contacts, depth, posture, force, hold
 };
 
-// The tilts at which a way from one tilt to another is looked at: both, and every whole LEG_STEP between them.
+// The tilts at which a way from one tilt to another is evaluated: both, and every whole LEG_STEP between them.
 inline constexpr double LEG_STEP = radians(5);
 std::vector<double> leg_tilts(double from, double to);
 

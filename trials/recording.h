@@ -14,7 +14,7 @@
 
 namespace wholehand {
 
-// The scene's text with one vessel alone: `wholehand view` takes no vessels that stand in each other. Lines that go are left empty,
+// The scene's text with one vessel alone: `wholehand view` takes no vessels that overlap. Lines that go are left empty,
 // so that messages keep their places. Empty where what is left is no scene.
 std::string text_of_one_vessel(const Scene& scene, std::size_t vessel);
 

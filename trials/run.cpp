@@ -52,7 +52,7 @@ std::string settings_text(const TrialSettings& settings) {
   return text;
 }
 
-// Of a grip the whole of it, not its number alone: a mesh or a scene of another version may give it another meaning.
+// Writes each grip in full, not its number alone: a mesh or a scene of another version may give the number another meaning.
 std::string grips_text(const std::vector<TrialGrip>& grips) {
   std::string text;
   for (const TrialGrip& grip : grips)
@@ -279,8 +279,8 @@ class Trials {
     return ExitCode::interrupted;
   }
 
-  // They get their names once all are whole. The journal goes after that, so --resume mends what a kill leaves among the renames.
-  // False: it was stopped before the first of them.
+  // Files get their names once all are whole. The journal goes after that, so --resume mends what a kill leaves among the renames.
+  // False: stopped before the first of them.
   bool write_files(const TrialFiles& files, const TrialIdentity& identity, const std::atomic<bool>& stop) {
     const TrialAnalysis analysis = analyse_trials(scene_, tried_, options_);
     std::vector<ShownDisagreement> shown;

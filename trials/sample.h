@@ -39,11 +39,11 @@ constexpr std::size_t SCORE_STRATA = 10;
 std::vector<Candidate> stratified_sample(const std::vector<Candidate>& eligible, std::size_t count, std::size_t vessel,
                                          std::uint64_t seed);
 
-// Numbers of the grips of a vessel whose scores are looked at: all, or where there are more than `most`, one of each of `most`
+// Numbers of the grips of a vessel whose scores are considered: all, or where there are more than `most`, one of each of `most`
 // equal stretches, drawn by the seed.
 std::vector<std::uint64_t> looked_at(std::uint64_t grips, std::size_t most, std::size_t vessel, std::uint64_t seed);
 
-// Feasible, plausible grips of a vessel with their scores, of those that are looked at: by the core in double precision, so that
+// Feasible, plausible grips of a vessel with their scores, of those that are considered: by the core in double precision, so that
 // every machine has the same ones, or of a result. Those that do not hold are tried too, with a score of 0; a result without `plausible`
 // has only the others. Empty where `stop` is set.
 std::vector<Candidate> plausible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
@@ -51,10 +51,10 @@ std::vector<Candidate> plausible_by_core(const Scene& scene, const Plan& plan, s
 std::vector<Candidate> plausible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
                                            const TrialOptions& options);
 
-// Of a stratified sample, as many grips begin too deep in the vessel to be tried.
+// One of so many grips of a stratified sample begins too deep in the vessel to be tried.
 constexpr std::size_t DEEP_ONE_OF = 5;
 
-// Eligible grips of a vessel, told apart by how deep in it they begin by the core.
+// Eligible grips of a vessel, divided by how deep in it they begin by the core.
 struct PartedByDepth {
   std::vector<Candidate> usual, deep;  // deep: by more than the overlap at which a trial is discarded
 };

@@ -28,7 +28,7 @@ class GripScatter {
   std::vector<Placement> place(const TrialGrip& grip, const std::vector<TrialCase>& cases, std::size_t count,
                                std::uint64_t seed) const;
 
-  // Its score over the deviations by which a sweep ranks it.
+  // A grip's score over the deviations by which a sweep ranks it.
   RobustScore robust(const TrialGrip& grip) const;
 
  private:

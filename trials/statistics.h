@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How well a number tells whether a grip holds: shares, ROC curves, calibration, and their intervals of 95 %.
+// How well a number predicts whether a grip holds: shares, ROC curves, calibration, and their intervals of 95 %.
 #pragma once
 
 #include <cstddef>
@@ -67,7 +67,7 @@ struct CalibrationBin {
 };
 std::vector<CalibrationBin> calibration_of(std::span<const EffortTrial> trials);
 
-// Of trials that effort <= 1 says are held.
+// Outcomes of trials against the prediction that effort <= 1 holds.
 struct Confusion {
   std::size_t held_as_said = 0, lost_though_said = 0;  // effort <= 1
   std::size_t held_though_not = 0, lost_as_said = 0;   // effort > 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A trial: a physics engine holds a vessel with a grip's hand, and tells whether it stays. What is asked, and what is answered.
+// A trial: a physics engine holds a vessel with a grip's hand, and reports whether it stays. Request and answer.
 #pragma once
 
 #include <array>
@@ -101,7 +101,7 @@ struct TrialTrack {
   std::vector<TrialFrame> frames;
 };
 
-// Who tries grips of one scene. Thread-safe; the same grip and cases give the same bits on any thread, in any order.
+// Tries grips of one scene. Thread-safe; the same grip and cases give the same bits on any thread, in any order.
 class TrialEngine {
  public:
   virtual ~TrialEngine() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grips that have been tried: what was said of them, and what the engine did with them.
+// Grips that have been tried: their predictions, and what the engine did with them.
 #pragma once
 
 #include <string>
@@ -27,8 +27,7 @@ struct TriedGrips {
   const std::vector<TrialCase>& cases_of(std::size_t grip) const { return cases[grips[grip].vessel]; }
 };
 
-// A trial that tells of its own state: it was not discarded, and its state was reached. One that was lost at a smaller tilt was
-// not.
+// A trial that tests its own state: it was not discarded, and its state was reached, not lost at a smaller tilt.
 inline bool is_telling(const TrialOutcome& outcome) { return !outcome.discarded && outcome.reason != TrialReason::earlier; }
 
 // Whether a contact slid farther than it may in a firm grip. A vessel may be held all the same.

@@ -20,9 +20,9 @@ using Point2 = std::array<double, 2>;
 
 constexpr int SLICES = 400;        // of a vessel's height, for inertias alone
 constexpr double FLAT = 1e-7;      // m: a shorter edge has no direction
-constexpr double MOST_WORK = 3e9;  // sides times vertices of a mesh that are looked at
+constexpr double MOST_WORK = 3e9;  // sides times vertices of a mesh that are checked
 
-// Of an outline, whose arcs are cut so finely that no cone is further from them than FORM_TOLERANCE.
+// Points of an outline, with arcs cut so finely that no cone is further from them than FORM_TOLERANCE.
 std::vector<Point2> form_points(const std::vector<PreparedElement>& elements) {
   double widest = 0;
   for (const PreparedElement& element : elements)
@@ -209,7 +209,7 @@ struct Moments {
   void subtract(const SliceSum& part) {
     volume -= part.volume;
     first.y -= part.first;
-    // of a body of revolution: along = 2 <x x>, across = <x x> + <y y>
+    // a body of revolution has along = 2 <x x>, across = <x x> + <y y>
     second[0][0] -= part.along / 2;
     second[1][1] -= part.across - part.along / 2;
     second[2][2] -= part.along / 2;

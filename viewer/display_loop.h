@@ -33,7 +33,7 @@ struct DisplayMoment {
 // The newest advice, or none; from the display loop's thread.
 using AdviceSource = std::function<std::shared_ptr<const Advice>()>;
 
-// Who shows moments: on the display loop's thread.
+// Shows moments, on the display loop's thread.
 class Display {
  public:
   virtual ~Display() = default;
@@ -43,8 +43,8 @@ class Display {
   virtual void show(const DisplayMoment& moment) noexcept = 0;
 };
 
-// Shows the newest tick on every display when it is looked at, DISPLAY_RATE times a second at most: best looked at just so often. Those between
-// are not shown, none is twice, the last one always.
+// Shows the newest tick on every display, DISPLAY_RATE times a second at most: best polled just so often. Ticks between are not shown,
+// none twice, the last one always.
 class DisplayLoop {
  public:
   // `live` and the displays must outlive it. `advice` may be empty.
@@ -56,7 +56,7 @@ class DisplayLoop {
 
   // Ticks in their order, all of them, from one thread. Waits for nothing but what is copied.
   void look(std::span<const Tick> ticks);
-  // Shows what was last looked at, and ends. Once; then nothing is shown any more.
+  // Shows the last tick that came, and ends. Once; then nothing is shown any more.
   void stop();
 
  private:

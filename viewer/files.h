@@ -14,7 +14,7 @@ struct EmbeddedFile {
 
 std::span<const EmbeddedFile> view_files();
 
-// The file of that path, or null; what a browser is told that it is: by its ending.
+// The file of that path, or null; its content type for a browser, by its ending.
 const EmbeddedFile* find_view_file(std::string_view path);
 std::string_view content_type(std::string_view path);
 

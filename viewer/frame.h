@@ -61,8 +61,8 @@ struct ViewFrame {
   std::vector<Vessel> vessels;
   std::optional<PouringStream> stream;
   // N; N m. `feedback` is what the method asks for, `written` what the gripper got: none where there is no gripper. `hold` is that
-  // of the whole hand where `hand.hold` has it, else of two tips. What is infinite or not there is null in JSON, and of a hold
-  // force that is infinite it is said.
+  // of the whole hand where `hand.hold` has it, else of two tips. JSON has null for what is infinite or absent, and
+  // marks an infinite hold force.
   double feedback = 0, written = Tick::NONE, base = 0, normal = 0, opening = 0, user = 0, hold = Tick::NONE, weight = 0, torque = 0;
   std::vector<double> arrived;  // of each amount that the task wants, m3
   double spilt = 0, target_volume = 0;

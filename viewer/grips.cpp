@@ -30,7 +30,7 @@ using core_f64::Mat3;
 using core_f64::Vec3;
 using Json = nlohmann::ordered_json;
 
-// A vessel of the scene, what is needed of it beyond the evaluator: its cavity, and points that tell how low it reaches.
+// A vessel of the scene, what is needed of it beyond the evaluator: its cavity, and points that show how low it reaches.
 struct ViewedVessel {
   core_f64::Vessel vessel;
   std::vector<std::array<double, 2>> rings;  // (r, y) of its profile, m; arcs by their chords' ends

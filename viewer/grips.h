@@ -31,7 +31,7 @@ struct ViewedGrip {
   GripInput grip;
   std::string label;
   std::optional<double> score = std::nullopt;
-  std::optional<RefinedView> refined = std::nullopt;  // told beside it, and not shown
+  std::optional<RefinedView> refined = std::nullopt;  // beside it in words, not in the picture
   std::optional<RobustView> robust = std::nullopt;
 };
 

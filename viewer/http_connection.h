@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds IDLE_PATIENCE{2000};     // between two requ
 constexpr std::chrono::milliseconds REQUEST_PATIENCE{5000};  // for the whole of a request, from its first byte
 constexpr std::chrono::milliseconds WRITE_PATIENCE{2000};    // without progress
 
-// A request's head is read whole and looked at before httplib sees any of it: httplib has no limit on a line, and takes some headers apart with
+// Reads and checks a request's whole head before httplib sees any of it: httplib has no limit on a line, and takes some headers apart with
 // std::regex, which recurses with every character. Those that are not needed here (ranges, compression) are hidden from it, and what it would decode in
 // Host and Origin is spoilt.
 class HttpConnection final : public httplib::Stream {

@@ -20,7 +20,7 @@ class LiveView final : public Display {
   const std::string& address() const { return server_->address(); }
   bool is_watched() override { return frames_.viewers() > 0; }
   void show(const DisplayMoment& moment) noexcept override;
-  // Tells viewers why there are no more frames, and ends the server.
+  // Sends viewers why there are no more frames, and ends the server.
   void end(const std::string& reason);
 
  private:

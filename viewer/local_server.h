@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// Each connection has a thread of its own. One too many is told so and closed by the thread that takes connections, so that whoever opens
+// Each connection has a thread of its own. One too many is refused and closed by the thread that takes connections, so that whoever opens
 // hundreds keeps nobody else from those that are there for longer than they are idle.
 class LocalServer final : public httplib::Server {
  public:
@@ -38,7 +38,7 @@ class LocalServer final : public httplib::Server {
   bool is_over_ = false;
   std::set<socket_t> open_;
   std::thread listening_;
-  // Of the thread that takes connections, set by itself before the first one. What it is given to serve is one too many.
+  // The thread that takes connections, set by itself before the first one. A connection that it has to serve is one too many.
   std::thread::id taking_;
 };
 

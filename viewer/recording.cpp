@@ -56,7 +56,7 @@ ViewFrame::Timing RecordingView::timing_of(std::size_t tick) const {
   }
   timing.step = ticks[tick].step_time;
   timing.missed = ticks[tick].number - ticks[0].number - static_cast<std::int64_t>(tick);
-  // of the second before
+  // rate over the second before
   const std::size_t before = tick_by(static_cast<double>(ticks[tick].number) / rate - 1);
   timing.rate = before == tick
                     ? rate

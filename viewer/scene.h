@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a scene does not change while it is viewed, as the JSON that the page takes; docs/view.md names the fields.
+// The constant part of a viewed scene, as the JSON that the page takes; docs/view.md names the fields.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace wholehand {
 
 enum class ViewMode { live, recording, grips };
 
-// Of what is viewed, beside the scene: what gripper it was or what evaluated it; and the parts that only some modes have, as JSON: the control's
-// limits, the length of a recording, the grips.
+// What the page shows beside the scene: which gripper it was or what evaluated it; and the parts that only some modes have, as JSON: the
+// control's limits, the length of a recording, the grips.
 struct ViewFacts {
   ViewMode mode = ViewMode::live;
   std::string title, device;

@@ -15,7 +15,7 @@ void serve_view(ViewContent content, int port, bool address_on_standard_error) {
   InterruptGuard interrupt;
   ViewServer server(std::move(content), port);
   const BrowserWindow window(server.address(), address_on_standard_error);
-  finish_output();  // whom the address does not reach has nothing to look at
+  finish_output();  // a user without the address has nothing to see
   while (!interrupt.flag() && !is_output_abandoned()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 

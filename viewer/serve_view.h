@@ -6,7 +6,7 @@
 
 namespace wholehand {
 
-// Serves it, tells where, and returns after a signal. Throws Error as ViewServer and BrowserWindow do.
+// Serves it, prints where, and returns after a signal. Throws Error as ViewServer and BrowserWindow do.
 void serve_view(ViewContent content, int port, bool address_on_standard_error);
 
 }  // namespace wholehand

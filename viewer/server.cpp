@@ -24,7 +24,7 @@ using httplib::Request;
 using httplib::Response;
 using Handled = httplib::Server::HandlerResponse;
 
-constexpr std::chrono::milliseconds LAST_WORDS{500};  // for viewers to be told that it is over
+constexpr std::chrono::milliseconds LAST_WORDS{500};  // for viewers to learn that it is over
 constexpr std::chrono::milliseconds SIGN_OF_LIFE{1000};
 
 // 128 bits that nobody guesses.

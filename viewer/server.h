@@ -16,8 +16,8 @@ namespace wholehand {
 constexpr int MOST_VIEWERS = 8;               // that are sent frames
 constexpr std::size_t MOST_CONNECTIONS = 32;  // of any kind
 
-// What there is to see. What is not set is not there (404). The functions are called from many threads at once; an Error that they throw is the answer
-// (400), its line the reason.
+// The content of a view. What is not set is not there (404). Many threads call the functions at once; an Error that they throw is the
+// answer (400), its line the reason.
 struct ViewContent {
   using Query = std::map<std::string, std::string>;
   std::string scene;                                          // scene.json
@@ -38,7 +38,7 @@ class ViewServer {
 
   // "http://127.0.0.1:PORT/TOKEN/". Who knows it sees the view; the token is new with each server.
   const std::string& address() const;
-  // Gives viewers whose frames are over a moment to be told, and cuts all connections.
+  // Gives viewers whose frames are over a moment to learn it, and cuts all connections.
   void stop();
 
  private:

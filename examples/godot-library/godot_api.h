@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What this plugin needs to know of GDNative 1.0, the C interface of Godot 3, on 64-bit machines. Debian has no package of Godot's
 // headers. The facts are those of modules/gdnative/gdnative_api.json and modules/gdnative/include in the sources of Godot 3.2.3: a
-// function's number is its position in the list "core" of version 1.0. Newer functions stand in lists of their own, behind `next`.
+// function's number is its position in the list "core" of version 1.0. Newer functions are in lists of their own, behind `next`.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace godot_values {
 
 using godot_api::Variant;
 
-// To be called once, before anything else here.
+// Call once, before anything else here.
 void use(const godot_api::Functions& functions);
 
 Variant nil();

@@ -236,7 +236,7 @@ class Wholehand {
     return index;
   }
 
-  // Of a Dictionary with any of these keys: m and rad.
+  // Reads a grip from a Dictionary with any of these keys: m and rad.
   static wh_grip grip_of(const Arguments& in) {
     wh_grip grip;
     WH_INIT(&grip);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A session on a thread of its own at the session's rate (1 kHz by default). An engine's Update() or FixedUpdate() comes at 50 to
-// 144 Hz, and forces that are rendered so rarely shake. The engine looks at the hand whenever it likes; the thread waits for it no
+// 144 Hz, and forces that are rendered so rarely shake. The engine reads the hand whenever it likes; the thread waits for it no
 // longer than a copy takes.
 using System;
 using System.Diagnostics;
@@ -82,7 +82,7 @@ public sealed class SessionThread : IDisposable {
     }
   }
 
-  // The first one tells what happened.
+  // Keeps the first failure: it says what happened.
   void Keep(Exception failure) {
     lock (lock_) failure_ = failure_ ?? failure;
   }

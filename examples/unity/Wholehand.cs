@@ -35,7 +35,7 @@ public struct Turn {
   public Turn(double x, double y, double z, double w) { X = x; Y = y; Z = z; W = w; }
   public Turn FlippedUnity() { return new Turn(-X, -Y, Z, W); }
 
-  // Of a 3 x 3 rotation, row by row. The largest of the four numbers is found first, so that nothing is divided by a small one.
+  // From a 3 x 3 rotation, row by row. Finds the largest of the four numbers first, so that nothing is divided by a small one.
   public static unsafe Turn OfRotation(double* m) {
     double trace = m[0] + m[4] + m[8];
     if (trace > 0) {
@@ -117,7 +117,7 @@ public unsafe struct GripResult {
   public double WristShare, WristFlexion, WristDeviation, WristPronation;
   public int IsBeyondWrist;
   public static GripResult Create() { return new GripResult { Size = (UIntPtr)sizeof(GripResult) }; }
-  // Of the hand at rest on the glass, vessel frame.
+  // A joint of the hand at rest on the glass, vessel frame.
   public Point PosedJoint(int joint) { fixed (double* all = Posed) return Native.PointOf(all, joint); }
 }
 
@@ -188,7 +188,7 @@ public unsafe struct Hand {
   public fixed double Rotation[9];
   public fixed double WristQuaternion[4];
   public static Hand Create() { return new Hand { Size = (UIntPtr)sizeof(Hand) }; }
-  // Of the skin about a joint.
+  // Radius of the skin about a joint.
   public double Radius(int joint) { Native.Within(joint); fixed (double* all = Radii) return all[joint]; }
   public Point Joint(int joint) { fixed (double* all = Joints) return Native.PointOf(all, joint); }
   public Point JointUnity(int joint) { return Joint(joint).FlippedUnity(); }

@@ -64,7 +64,7 @@ class _Chooser:
 
         places = np.flatnonzero(eligible & ~np.isnan(scores))
         ordered = places[np.argsort(-scores[places], kind="stable")]
-        # a hand is posed for each grip that is looked at, and far fewer are than there are: coordinates come by blocks
+        # each grip that is considered needs a posed hand, and few are considered: coordinates come by blocks
         chosen: list[int] = []
         size = 1 << 16
         while True:
@@ -78,7 +78,7 @@ class _Chooser:
 
 
 def _hands(data: xr.Dataset, dims: list[str], scene: Scene) -> list[npt.NDArray[np.bool_]]:
-    """Of each hand scale whose grips have a list of their own: which grips are of it."""
+    """A mask of the grips of each hand scale that has a list of its own."""
     import numpy as np
 
     shape = tuple(data.sizes[dim] for dim in dims)
@@ -218,7 +218,7 @@ def best(
     unknown = [dim for dim in dims if dim not in _AXES]
     if unknown:
         raise Error(f"best: the dimension {unknown[0]} of the grips is no axis of a sweep")
-    # as numbers with a sign: the best are looked for by the least of what is below zero
+    # as numbers with a sign: the search for the best takes the least of what is below zero
     own = data[by] if isinstance(by, str) else by
     wanted = _of_grips(own, data, dims, "by", "biuf").astype(np.float64).reindex_like(data["reason"])
     if is_least:
@@ -258,7 +258,7 @@ def _listed(part: xr.Dataset, dims: list[str], chooser: _Chooser, places: tuple[
 
     names = [name for name, variable in part.data_vars.items() if set(dims) <= set(variable.dims)]
     length = len(places[0])
-    # of none, the first one less itself: a file is not read at no place
+    # no grips: reads the first one and drops it, since a file cannot be read at no place
     picked = part[names].isel({dim: xr.DataArray(at if length else [0], dims="grip") for dim, at in zip(dims, places)})
     if not length:
         picked = picked.load().isel(grip=slice(0, 0))

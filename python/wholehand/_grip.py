@@ -38,7 +38,7 @@ class Drawing:
 
 
 class Grip(Mapping[str, Any]):
-    """One grip and everything that ``wholehand grip --json`` tells of it. Made by ``wh.grip``.
+    """One grip and everything that ``wholehand grip --json`` reports of it. Made by ``wh.grip``.
 
     A mapping from the names of that JSON (docs/grip.md) to its values: lists of numbers are arrays, SI units, points in the
     vessel's frame. ``str(grip)`` is the program's table; a notebook shows the drawing. A pickled grip is what was asked for.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is advised is better by the core, within reach, of the liquid that is there, and the same whenever the same is asked.
+// Advised grips are better by the core, within reach, for the actual liquid, and the same for the same question.
 // sanitizers: address
 #include "advice/adviser.h"
 
@@ -161,7 +161,7 @@ TEST(Adviser, TheOnlyGripIsGood) {
 
 INSTANTIATE_TEST_SUITE_P(Adviser, AdviserOn, testing::Values("core", "vulkan"));
 
-// A hand that stays is told one thing: an answer stands until another is clearly better, and it never gets worse beyond that. The
+// A hand that stays gets one answer: it stands until another is clearly better, and never gets worse by more than that. The
 // hand trembles about the axis, which changes nothing on a beaker.
 TEST(Adviser, Settles) {
   const Scene scene = advised_scene();
@@ -196,7 +196,7 @@ TEST(Adviser, AHandBesideTheVesselIsAdvisedAsOneThatHasComeIn) {
   }
 }
 
-// The hand that has gone to the advised grip is told to stay.
+// The advice to a hand that has gone to the advised grip is to stay.
 TEST(Adviser, AGripThatIsGoodNeedsNoOther) {
   const Scene scene = advised_scene();
   Adviser adviser(scene, "core", 1);
@@ -269,7 +269,7 @@ class FixedBackend final : public Backend {
   bool is_lost_;
 };
 
-// Its grips would be of another liquid than those that the core rates: the core goes on, with one line.
+// The device's grips would have another liquid than those that the core rates: the core goes on, with one line.
 TEST(Adviser, ADeviceThatDoesNotTakeOtherLiquidGivesWayToTheCore) {
   const Scene scene = advised_scene();
   for (const bool is_lost : {false, true}) {

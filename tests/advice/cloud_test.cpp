@@ -68,7 +68,7 @@ TEST(Cloud, KeepsToTheVesselAndItsAxis) {
   EXPECT_EQ(come_in(somewhere()).offset, 4e-3);
 }
 
-// What the reach leaves free is not touched.
+// Coordinates that the reach leaves free do not change.
 TEST(Cloud, AGripOfBeforeTurnsWithTheHandWhereThatChangesNothing) {
   GripInput before = somewhere();
   before.azimuth += 0.01;

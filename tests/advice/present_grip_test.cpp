@@ -65,7 +65,7 @@ TEST(PresentGrip, OfTheCoresOwnTipsIsThatGrip) {
 
 TEST(PresentGrip, IsNoneOfALineAlongTheAxis) { EXPECT_FALSE(grip_of_tips({Vec3(0, 0.01, 0), Vec3(0, 0.05, 0)}, Mat3(1))); }
 
-// Of whoever plays a session: near, then held at the height that the script has.
+// The approach follows a played session: near, then held at the height that the script has.
 TEST(Approach, FollowsASession) {
   const Scene scene = live_scene();
   const LiveScene live(scene);

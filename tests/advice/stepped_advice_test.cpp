@@ -46,7 +46,7 @@ TEST(SteppedAdvice, IsTheSameEachTimeAndOnAnyThreads) {
   EXPECT_TRUE(has_grip);
 }
 
-// What is asked for at one moment is there with the next, and not before.
+// The answer to a question is there at the next moment, and not before.
 TEST(SteppedAdvice, TakesItsTime) {
   const Scene scene = advised_session_scene();
   const std::vector<Tick> record = play_session(scene, script_for(scene));

@@ -82,8 +82,8 @@ void expect_wrist_to_follow(const Scene& scene, const GripInput& from, const Gri
       << words << ", from azimuth " << degrees(from.azimuth) << ", roll " << degrees(from.roll);
 }
 
-// What is said of a turned hand is where its wrist then is, by the core: in front of the vessel, behind it and at its sides, beside
-// it and above it, of either hand. The wrist is not straight behind the line of the tips, so it goes that way by more than half.
+// The words for a turned hand say where its wrist then is, by the core: in front of the vessel, behind it and at its sides, beside
+// it and above it, for either hand. The wrist is not straight behind the line of the tips, so it goes that way by more than half.
 TEST(WayWords, OfTurnsAreWhereTheWristGoes) {
   for (const Handedness handedness : {Handedness::right, Handedness::left}) {
     Scene scene = scene_of({beaker1()});

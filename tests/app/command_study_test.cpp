@@ -87,7 +87,7 @@ TEST_F(StudyCommand, ForcesAndSessionsAreTheSameOnAnyThreads) {
   EXPECT_FALSE(file_exists(folder / "one/study.journal")) << "it is done";
 }
 
-// Of two people with and without advice: the same on any threads, and one row of each number says what advice changes.
+// Two people with and without advice: results are the same on any threads, and one row of each number says what advice changes.
 TEST_F(StudyCommand, AdviceIsTheSameOnAnyThreads) {
   const std::string scene = one_beaker_file(folder), weak = folder / "weak.toml";
   write_file(weak, file_text(scene) + "[strength]\nefforts = false\n");
@@ -167,7 +167,7 @@ TEST_F(StudyCommand, TheDatasetHasTheRowsOfTheTable) {
   EXPECT_TRUE(has(read_text(nc, "", "scene"), "guidance_mm"));
 }
 
-// The line of a table of the page: what stands in a row of study.csv, rounded, and in words.
+// The line of a table of the page: a row of study.csv, rounded, and in words.
 TEST_F(StudyCommand, ThePageShowsTheNumbersOfTheTable) {
   ASSERT_EQ(study("one", "").code, 0);
   const std::string page = file_text(folder / "one/study.html");
@@ -210,7 +210,7 @@ TEST_F(StudyCommand, WhatIsWrongIsOneLine) {
   expect_error("study " + (folder / "bad.toml") + " -o " + (folder / "none"), 2, "scatter");
 }
 
-// What is there and is not of a study stays.
+// Files in the folder that are not of a study stay.
 TEST_F(StudyCommand, OverwritesOnlyItsOwn) {
   std::filesystem::create_directory(folder / "taken");
   write_file(folder / "taken/study.csv", "mine\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the built program says of a canister that nobody can hold, and of one that somebody can.
+// Messages of the built program for a canister that no hand can hold, and for one that a hand can.
 // sanitizers: address
 #include <fmt/format.h>
 #include <gtest/gtest.h>

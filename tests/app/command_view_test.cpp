@@ -39,7 +39,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// A program that shows a view, from when it has told its address.
+// A program that shows a view, once it has printed its address.
 class Viewed {
  public:
   explicit Viewed(const std::string& arguments) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `live` with a device whose library fails in every way, and with signals: what is on the device at the end is held to what is said
-// of it.
+// `live` with a device whose library fails in every way, and with signals: the force on the device at the end is the reported one.
 // sanitizers: none
 #include "app/live.h"
 
@@ -74,7 +73,7 @@ TEST(LiveDevice, ALibraryThatExitsIsAFailure) {
             "wholehand: live: a library ended the program by exit(0); zero force was written, state released\n");
 }
 
-// Before the loop, after it, and where it is only looked for.
+// The library exits before the loop, after it, and while the program only searches for devices.
 TEST(LiveDevice, ALibraryThatExitsOutsideTheLoopIsAFailure) {
   for (const bool is_quick : {false, true}) {
     const auto leave = [is_quick] { is_quick ? std::quick_exit(0) : std::exit(0); };
@@ -105,7 +104,7 @@ TEST(LiveDevice, ALibraryThatExitsOutsideTheLoopIsAFailure) {
   }
 }
 
-// Every call fails from some moment on: the reason is the call's that failed first, and the force is said to be left.
+// Every call fails from some moment on: the reason is that of the first failed call, and the report says that the force is left.
 TEST(LiveDevice, WhereEveryCallFailsTheForceIsSaidToBeLeft) {
   for (const bool is_read : {false, true}) {
     DeviceSession session;
@@ -154,7 +153,7 @@ TEST(LiveDevice, SignalsThatWouldEndItAtOnceLetGo) {
   }
 }
 
-// Ctrl-C is a wish that the loop looks at; where it hangs in the library, the next one takes the force away itself.
+// Ctrl-C is a request that the loop checks; where the loop hangs in the library, the next Ctrl-C takes the force away itself.
 TEST(LiveDevice, ASecondInterruptLetsGo) {
   for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, std::pair{SIGTERM, "SIGTERM"}, std::pair{SIGHUP, "SIGHUP"}}) {
     DeviceSession session;

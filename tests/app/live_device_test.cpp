@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `live` with a device whose calls take long, in a process that stands still: what is on the device at the end is held to what is
-// said of it.
+// `live` with a device whose calls take long, in a process that stalls: the force on the device at the end is the reported one.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -54,9 +53,9 @@ TEST(LiveDevice, ANameOfNoEncodingIsPrintedAndIsJson) {
   }
 }
 
-// ---- a process that stands still ----
+// ---- a process that stalls ----
 
-// Long enough that a busy machine does not do the same between the loop's look at the clock and the library.
+// Long enough that a busy machine does not stall as long between the loop's reading of the clock and the library.
 constexpr double STOPPED = 35e-3;  // s
 
 // The write after each gap, or `later` ones after it, is zero.
@@ -236,7 +235,7 @@ TEST(LiveDevice, ADeviceThatIsNotLeftIsGivenUp) {
   }
 }
 
-// The last write after a fault does not return: the fault is told, and what a second thread could do about the force.
+// The last write after a fault does not return: the report has the fault, and what a second thread could do about the force.
 TEST(LiveDevice, AFaultWhoseZeroForceDoesNotReturnIsTold) {
   for (const bool lets_in : {false, true}) {
     DeviceSession session;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a live session tells, and the built program's `live`: options, exit codes, recording, replay, signals, disks that fill up.
+// The report of a live session, and the built program's `live`: options, exit codes, recording, replay, signals, disks that fill up.
 // sanitizers: address thread
 #include "app/live.h"
 
@@ -40,7 +40,7 @@ namespace fs = std::filesystem;
 
 Scene board_scene() { return read_scene_file(find_scene("mixing_board")); }
 
-// ---- what it tells ----
+// ---- the report ----
 
 TEST(LiveReport, NarratesWhatHappensAndNothingTwice) {
   const Scene scene = board_scene();
@@ -310,7 +310,7 @@ TEST(Live, StreamsToWhoeverListens) {
   EXPECT_LE(heard.frames, 2 * 60 + 2);
 }
 
-// What was felt is felt again, to the bit, and recorded again.
+// A replay feels and records the session again, to the bit.
 TEST(Live, AReplayGivesTheSameForcesToTheBit) {
   const TemporaryFolder folder;
   const std::string first = folder / "first.nc", second = folder / "second.nc";
@@ -466,7 +466,7 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
   expect_refused("--record " + (folder / "none/a.nc"), 2, "none");
 }
 
-// From the theory of rendered walls: beyond it only who says so.
+// From the theory of rendered walls: gains beyond it need --unsafe-gains.
 TEST(Live, GainsThatAreNotStableAreRefused) {
   const TemporaryFolder folder;
   std::string text = file_text(find_scene("mixing_board"));

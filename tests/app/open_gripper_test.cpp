@@ -68,7 +68,7 @@ struct Carried {
   bool was_held = false;  // when it ended
 };
 
-// Without a clock, as the mock's goes by what it hears: a machine that stands still takes nothing from the way.
+// Without a clock, as the mock's goes by what it receives: a machine that stalls takes nothing from the way.
 Carried carry(Patient& gripper, const Scene& scene) {
   Session session(scene, gripper.limits().gap);
   Carried carried;
@@ -188,7 +188,7 @@ TYPED_TEST(OpenGripperSession, UnpluggingEndsItAndSaysSo) {
   EXPECT_EQ(carried.report.last.written.grip, 0);
 }
 
-// ---- a process that stands still ----
+// ---- a process that stalls ----
 
 // In and out of the beaker's side, a second and a half of every two pressed into it.
 GripperState pressing_state(double time) {
@@ -233,7 +233,7 @@ TYPED_TEST(OpenGripperSession, TheFirstForceAfterAStopIsZero) {
   MockBench bench;
   MockSettings settings;
   settings.motion = pressing_state;
-  settings.step = 1 / RATE;  // and no watchdog trips while the child stands still
+  settings.step = 1 / RATE;  // and no watchdog trips while the child stalls
   TypeParam mock(bench, settings);
   const pid_t child = start_pressing(mock.address());
   std::deque<int> stops{50, 100, 300};  // ms; the mock needs its turn for what was under way

@@ -74,7 +74,7 @@ class Session:
         self.is_waiting.set()
 
     def end(self):
-        """Exit code, report, what was said."""
+        """Exit code, report, messages."""
         output = self.process.stdout.read()
         code = self.process.wait(PATIENCE)
         self.reader.join()
@@ -205,7 +205,7 @@ class AHandOverTheNetwork(unittest.TestCase):
         self.assertEqual((code, report["fault"]), (3, "timeout"), said)
         self.assertRegex(said, r"timeout \(no new state for 50 ms\); zero force was written")
         self.expect_zero_at_the_end(peer)
-        # the last state may have been said one pause before
+        # the last state may have been sent one pause before
         if peer.heard[-1][0] < silent_from + 0.05 - 0.02:
             raise Busy(said)
         # 50 ms have passed after 51 ticks; a loop that misses some sends fewer

@@ -32,7 +32,7 @@ double best_seconds(const host::Device& on, const host::Commands& commands) {
   return best;
 }
 
-// Of a driver that computes on the processor: of as many as there are, as if nothing else had them.
+// A driver on the processor is timed as if it had all processors to itself.
 double best_computing_seconds(const host::Device& on, const host::Commands& commands) {
   double best = best_seconds(on, commands);
   for (int k = 0; k < TRIES && on.info().kind == host::DeviceKind::cpu; ++k) {

@@ -31,7 +31,7 @@ const CheckedMesh& flask() {
   return mesh;
 }
 
-// The widest spacing with at least so many samples.
+// The widest spacing with at least `samples` samples.
 MeshLattice lattice_of(const MeshDistance& distance, int samples) {
   const double margin = lattice_margin(three_beakers());
   LatticeWish wish;

@@ -13,8 +13,8 @@ struct ProcessorPeak {
   double operations = 0;     // a second, two a multiply-add
 };
 
-// Of so many threads at once, the best of some tries, with the vectors that reach most. Seconds are those that a thread has a processor, so that
-// other work on the machine changes the figure little.
+// Peak of `threads` at once, the best of some tries, with the fastest vector instructions. Counts processor time, so that other work on
+// the machine changes the figure little.
 ProcessorPeak processor_peak(Precision precision, int threads);
 // One number at a time: a product, and then a sum.
 ProcessorPeak scalar_peak(Precision precision, int threads);

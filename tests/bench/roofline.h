@@ -46,7 +46,7 @@ struct Demand {
 };
 Demand operator+(const Demand& a, const Demand& b);
 Demand demand_of(const OperationCounts& counts, double items);
-// Of each step, by the counting core, of the sample.
+// Demand of each step on the sample, by the counting core.
 std::vector<Demand> demands(const std::vector<Workload>& workloads);
 // Bytes of a number.
 constexpr std::size_t real_bytes(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
@@ -64,7 +64,7 @@ struct Peaks {
   host::DeviceInfo device;
   DevicePeak device_float, device_double;  // the latter 0 where the device has no double
   double device_copy_rate = 0;
-  bool counts_lanes = false;  // the device tells its useful lanes right
+  bool counts_lanes = false;  // the device counts its useful lanes right
 };
 Peaks measured_peaks(const Options& options);
 

@@ -41,7 +41,7 @@ struct CoreRun {
   std::vector<std::vector<GripInput>> samples;
 };
 
-// Of each step, without those before it.
+// Cost of each step, without those before it.
 std::vector<Cost> step_costs(const std::vector<Workload>& workloads, const CoreWay& way) {
   std::vector<std::unique_ptr<CoreRun>> runs;
   for (const Workload& workload : workloads) runs.push_back(std::make_unique<CoreRun>(workload, way));

@@ -82,7 +82,7 @@ class DeviceRun {
     return sums;
   }
 
-  // Of a run that counts.
+  // Lanes of each kernel, from a run that counts them.
   std::map<std::string, Lanes> lanes() {
     std::map<std::string, Lanes> sums;
     for (std::size_t v = 0; v < workload_.scene.vessels.size(); ++v) {

@@ -17,7 +17,7 @@ double intensity_of(const RooflineRow& row) { return row.demand.operations() / r
 bool is_bound_by_memory(const RooflineRow& row) { return intensity_of(row) * row.roof.copy_rate < row.roof.peak; }
 double height_of(const RooflineRow& row) { return std::min(row.roof.peak, intensity_of(row) * row.roof.copy_rate); }
 
-// Of the peak of the processors for as long as it has them, whatever else runs.
+// Share of the processors' peak over its processor time, whatever else runs.
 std::string busy_share(const RooflineRow& row, double scale, int digits) {
   if (!(row.roof.processor_peak > 0)) return "";
   const double rate = row.items * row.demand.operations() / row.cost.processor;

@@ -40,7 +40,7 @@ def watch(port, token, counts):
 
 
 def address_of(process):
-    """Port and token, once they are told."""
+    """Port and token, once they are printed."""
     while not (found := re.match(r"view: http://127\.0\.0\.1:(\d+)/(\w+)/", line := process.stderr.readline())):
         if not line:
             sys.exit("it told no address")

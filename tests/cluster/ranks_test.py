@@ -736,7 +736,7 @@ class Endings(Job):
         # what the scene asks to keep is not there
         code, out, errors = self.run_ranks(3, self.write("keep.toml", SMALL.replace("[strength]", '[strength]\nefforts = false\n\n[output]\nkeep = ["push"]')))
         self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
-        # ranks that are told of different results, and a name that no file can have
+        # ranks with different results, and a name that no file can have
         mixed = [MPI_PROGRAM, "sweep", path, "--on", "core", "-o"]
         code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *mixed, "a.nc", ":", "-n", "1", *mixed, "b.nc"]))
         self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What ranks take from the counter: every grip once, in pieces that fit who takes them.
+// What ranks take from the counter: every grip once, in pieces that fit each rank.
 #include "cluster/work_range.h"
 
 #include <gtest/gtest.h>

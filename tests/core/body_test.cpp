@@ -153,8 +153,8 @@ TEST(Body, SpheresOverlapMoreThanADepth) {
   EXPECT_FALSE(core_f64::overlap_more(a, b, 20)) << "a reach below 0 is not squared";
 }
 
-// Bones that are passed by are those that could not be the deepest: every depth so far gives the larger of it and the overlap. The bounds
-// round, by some units of 100 mm.
+// Only bones that cannot be the deepest are skipped: every depth so far gives the larger of it and the overlap. The bounds round, by some
+// units of 100 mm.
 TEST(Body, BonesThatCannotBeTheDeepestArePassedBy) {
   Random random(22);
   const auto point = [&](double size) { return size * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
@@ -298,7 +298,7 @@ TEST(Body, SelfDepthIsTheLargestOverlapOfTwoDigits) {
   EXPECT_LT(widest, 0.05e-3);
 }
 
-// Pairs that are passed by change nothing: the largest overlap of all pairs, or that of two spheres at the same joint of neighbouring fingers.
+// Skipped pairs change nothing: the depth is the largest overlap of all pairs, or of two spheres at the same joint of neighbouring fingers.
 TEST(Body, SelfDepthLeavesOutNoPairOfBones) {
   int from_joints = 0, grips = 0;
   each_grip(

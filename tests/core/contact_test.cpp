@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernel 4: separations, who touches, proxies, depths and bone stretch.
+// Kernel 4: separations, touching points, proxies, depths and bone stretch.
 #include "core/contact.h"
 
 #include <gtest/gtest.h>
@@ -248,7 +248,7 @@ TEST(Contact, TouchesWithinTheContactTolerance) {
   }
 }
 
-// A resting point is within one stop tolerance of the surface on either side, which no scene can tell from touching.
+// A resting point is within one stop tolerance of the surface on either side, which no scene can distinguish from touching.
 TEST(Contact, WhatRestsTouchesWhateverTheTolerance) {
   Scene scene = scene_of({beaker1(), beaker3()});
   scene.hand.contact_tolerance = 0;

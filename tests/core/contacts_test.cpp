@@ -18,7 +18,7 @@ namespace {
 
 using core_f64::Vec3;
 
-// A hand whose joints all stand at a height outside of a cylinder of 40 mm, one every 15 degrees.
+// A hand whose joints are all at one height outside a cylinder of 40 mm, one every 15 degrees.
 std::array<Vec3, JOINTS> ring_of_joints(double radius, double height) {
   std::array<Vec3, JOINTS> posed;
   for (int j = 0; j < JOINTS; ++j) {
@@ -65,8 +65,8 @@ TEST(Contacts, NothingPressesOnTheMouth) {
       << "below the base";
 }
 
-// Of a whole grip, by the evaluator: each contact lies on the surface, and the normal is that of the distance; a left hand's are
-// the mirrored ones of a right hand.
+// Contacts of a whole grip, by the evaluator: each lies on the surface, and its normal is that of the distance; a left hand's mirror a
+// right hand's.
 TEST(Contacts, OfAGripLieOnItsVessel) {
   Scene scene = three_beakers(), left = scene;
   left.hand.handedness = Handedness::left;

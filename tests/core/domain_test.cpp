@@ -26,7 +26,7 @@ std::string only_warning(const Scene& scene) {
   return warnings.empty() ? "" : warnings.front();
 }
 
-// A barrel of 100 mm whose wall is an arc of so many metres.
+// A barrel of 100 mm whose wall is an arc of a radius in m.
 VesselData barrel(double radius_m) {
   VesselData vessel = vessel_of("barrel", {line_to(35, 0), arc_to(35, 100, 35 - radius_m * 1e3, 50), line_to(0, 100)}, 0);
   vessel.mass = 0.5;

@@ -168,7 +168,7 @@ TEST(GripEffort, PushIsWhatBisectionFinds) {
   EXPECT_GT(pushed, 10);
 }
 
-// The hand holds with the friction that is said, to the tolerance of an effort, and does not with one step less.
+// The hand holds with the reported friction, to the tolerance of an effort, and does not with one step less.
 TEST(GripEffort, FrictionNeededIsTheLeast) {
   int finite = 0;
   for (const LoadedGrip& grip : random_loaded_grips(30, Handedness::right, 17)) {

@@ -22,7 +22,7 @@ struct Difference {
   int feasible = 0;          // grips that were compared
 };
 
-// Of the fields of both scenes, over grips of every kind.
+// Compares the fields that both scenes have, over grips of every kind.
 Difference difference_of(const Scene& scene_a, const Scene& scene_b) {
   const FieldSet fields_a = all_fields(scene_a), fields_b = all_fields(scene_b);
   Difference found;

@@ -45,7 +45,7 @@ TEST(Advance, MotionStartsOpen) {
   EXPECT_FALSE(motion.unsettled);
 }
 
-// Of a finger whose joints are at these angles.
+// Motion of a finger whose joints are at these angles.
 FingerMotion motion_at(const core_f64::Hand& hand, Vec3 angles) {
   FingerMotion motion = core_f64::start_motion(hand, 1);
   motion.origin = core_f64::chain_sums(angles);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No NaN and no infinity leaves a kernel where a value must be: looked for among grips that are made to find one.
+// No NaN and no infinity leaves a kernel where a value must be: a search among grips made to find one.
 // sanitizers: address
 #include <gtest/gtest.h>
 

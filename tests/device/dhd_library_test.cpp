@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Force Dimension's library: where it is looked for, and what is said where there is none.
+// Force Dimension's library: where the search looks for it, and the message where there is none.
 #include "device/dhd_library.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(DhdLibrary, SaysWhyOneThatIsThereDoesNotLoad) {
   expect_has(line, "cannot load Force Dimension's SDK: " + text + ":");
 }
 
-// The loader would wait without end for somebody to write to it.
+// The loader would wait without end for a writer.
 TEST(DhdLibrary, APipeIsNotWaitedFor) {
   const TemporaryFolder folder;
   const std::string path = folder / "libdhd.so";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The guard: each fault injected, each limit looked at tick by tick against its own definition.
+// The guard: each fault injected, each limit checked tick by tick against its own definition.
 // sanitizers: address
 #include "device/guard.h"
 #include "core/vectors.h"

@@ -30,7 +30,7 @@ void press_at_once(LoopRig& run) {
   run.scene.live.jump = 1000;
 }
 
-// The process stands still while it waits for a measurement, while it writes, and between two ticks: the next force is none. At
+// The process stalls while it waits for a measurement, while it writes, and between two ticks: the next force is none. At
 // every rate, since a stall is a time and no number of ticks.
 TEST(HapticLoop, AfterAStallTheFirstForceIsZero) {
   for (const double rate : {250.0, 1000.0}) {
@@ -94,8 +94,8 @@ TEST(HapticLoop, TheTickAfterAStallHasTheClocksNumber) {
   EXPECT_EQ(report.ticks + report.missed, run.sunk.back().number);
 }
 
-// A measurement that was taken before a stall of its read is told after it. A hand that moves at 0.4 m/s has not jumped in the tick after, which
-// would be 40 times as fast; and a replay, which knows the numbers alone, says the same.
+// A measurement taken before its read stalls arrives after the stall. A hand that moves at 0.4 m/s has not jumped in the next tick, which
+// would be 40 times as fast; and a replay, which knows the numbers alone, agrees.
 TEST(HapticLoop, AStallInsideOfAReadIsNoJump) {
   LoopRig run;
   press_at_once(run);
@@ -216,12 +216,12 @@ TEST(HapticLoop, TheWatchTakesTheForceAwayMeanwhile) {
   }
 }
 
-// A call that returns while the watch looks at it: its end is told of the zero, or there is none. The short call after it must not
-// be told in its place.
+// A call returns while the watch examines it: its end reports the zero, or none was written. The short call after it must not report
+// the zero in its place.
 TEST(HapticLoop, TheWatchActsOnNoCallThatHasReturned) {
   ScriptedGripper gripper;
   int told = 0;
-  // each on a processor of its own, as far as there are two: else the one would stand still while the other looks
+  // each on a processor of its own, as far as there are two: else the one would stall while the other checks
   cpu_set_t before;
   ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
   std::vector<cpu_set_t> each;
@@ -235,7 +235,7 @@ TEST(HapticLoop, TheWatchActsOnNoCallThatHasReturned) {
     CallWatch watch(gripper);  // its thread stays where it began
     sched_setaffinity(0, sizeof before, &each.back());
     const double start = monotonic_now();
-    // each some tenths of a microsecond long, as long as the watch looks at it; on a busy machine the watch may come for the first
+    // each some tenths of a microsecond long, as long as the watch examines it; on a busy machine the watch may come for the first
     // time long after a second
     for (double moment = start; moment < start + (gripper.meanwhiles > 0 ? 1 : 60); moment = monotonic_now()) {
       watch.enter(moment - 1000);

@@ -269,7 +269,7 @@ TEST(HapticLoop, KeepsTheTimeOfItsClock) {
   EXPECT_GT(run.sunk[10].step_time, 0);
 }
 
-// The flag is set by one thread and seen by another, and ticks leave through the sink: what the thread sanitizer is to look at.
+// The flag is set by one thread and seen by another, and ticks leave through the sink: a case for the thread sanitizer.
 TEST(HapticLoop, StopsFromAnotherThread) {
   LoopRig run;
   run.options.is_simulated = false;
@@ -290,7 +290,7 @@ TEST(HapticLoop, StopsFromAnotherThread) {
   EXPECT_EQ(report.fault, Fault::interrupted);
 }
 
-// ---- what is said of the force ----
+// ---- messages about the force ----
 
 TEST(HapticLoop, TellsWhatBecameOfTheForce) {
   for (const bool takes_nothing : {false, true}) {

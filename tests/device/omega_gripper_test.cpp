@@ -196,7 +196,7 @@ TEST_F(OmegaGripperTest, WriteErrorsCarryTheSdksWords) {
   EXPECT_STREQ(gripper->trouble(), "force not taken: no power");
 }
 
-// It may be half switched on: zero is written, and what is told is what the device answered.
+// The force may be half switched on: zero is written, and the report has the device's answer.
 TEST_F(OmegaGripperTest, AForceThatCannotBeEnabledIsTakenAway) {
   for (const bool is_taken : {false, true}) {
     const auto gripper = open();

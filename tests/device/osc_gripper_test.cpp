@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A hand over the network: who is obeyed, what becomes of everything else that comes, and that no force is left on any way out. The ticks are
+// A hand over the network: the obeyed sender, the fate of all other datagrams, and that no force is left on any way out. The ticks are
 // counted by the tests; only the datagrams are real.
 // sanitizers: address thread
 #include "device/osc_gripper.h"

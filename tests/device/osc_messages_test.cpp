@@ -172,7 +172,7 @@ TEST(OscMessages, NumbersOutOfRangeAreWrong) {
   EXPECT_EQ(said(osc_hello({0, 1, 0, 1000}), words), "");
 }
 
-// Of a whole datagram every beginning is none, but for one that is a whole datagram itself.
+// No prefix of a datagram is a valid datagram, unless it is a whole one itself.
 TEST(OscMessages, CutDatagramsAreWrong) {
   const std::string hello = osc_hello(A_HELLO), bundle = osc_bundle({hello, state_message(A_STATE)});
   for (std::size_t size = 0; size < bundle.size(); ++size) {

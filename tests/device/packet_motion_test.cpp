@@ -52,7 +52,7 @@ std::vector<Packet> rough_packets(double rate, double seconds, double jitter, st
   return packets;
 }
 
-// There and back, with rests, each way in 0.4 s; its largest speed is that of 3 s^2 - 2 s^3 in the middle.
+// A reach there and back, with rests, each way in 0.4 s; the largest speed is that of 3 s^2 - 2 s^3 in the middle.
 constexpr double REACH = 0.6, REACH_SPEED = 1.5 * REACH / 0.4;  // m, m/s
 double reach(double time) { return REACH * (ease(time, 0.5, 0.9) - ease(time, 1.2, 1.6)); }
 

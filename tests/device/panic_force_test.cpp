@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When the program itself fails: what is said of the force, and who writes it. (Not under a sanitizer, which has handlers of its
-// own.)
+// When the program itself fails: the message about the force, and who writes it. (Not under a sanitizer, which has its own handlers.)
 // sanitizers: none
 #include "device/panic.h"
 
@@ -18,7 +17,7 @@
 namespace wholehand {
 namespace {
 
-// ---- what is said of the force ----
+// ---- messages about the force ----
 
 // The last force as the loop wrote it, whoever fails.
 TEST(PanicGuard, SaysWhatIsLeftOnADeviceThatTookNothing) {

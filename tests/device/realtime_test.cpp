@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The haptic thread's scheduling and locked memory: what is told is what is so.
+// The haptic thread's scheduling and locked memory: the report is true.
 // sanitizers: none
 #include "device/realtime.h"
 

@@ -79,7 +79,7 @@ TEST(SimFingers, PressWhatThePersonWantsWithinTheResponse) {
   }
 }
 
-// They have learnt another stiffness than that which is there: the correction brings the force home, later.
+// The fingers have learnt another stiffness than the actual one: the correction reaches the force, later.
 TEST(SimFingers, CorrectWhatTheyDidNotForesee) {
   Pinch pinch(median());
   pinch.opening = 300;
@@ -89,8 +89,8 @@ TEST(SimFingers, CorrectWhatTheyDidNotForesee) {
   EXPECT_NEAR(pinch.forces.back(), 4, 0.05);
 }
 
-// A load comes on that the person wants to meet with as much again: in rest the force is the wanted one, and the place by so much
-// further in as the spring asks for.
+// A load comes on that the person wants to meet with as much again: at rest the force is the wanted one, and the place is further in by
+// what the spring asks for.
 TEST(SimFingers, FollowALoad) {
   Pinch pinch(median());
   pinch.run(2, 3);

@@ -175,7 +175,7 @@ Clearance clearance(const Scene& scene, const SimSession& session) {
   return all;
 }
 
-// Of both hands. The glass is sampled every 4 mm at most, so 2 mm of what is between its samples and a wall cannot be in the wall.
+// Both hands. The glass is sampled every 4 mm at most: what lies between samples is within 2 mm of one, so it cannot be in the wall.
 TEST(SimGripper, KeepsVesselAndHandClearOfTheTargetsWall) {
   Scene scene = shipped_live();
   for (const Handedness handedness : {Handedness::right, Handedness::left}) {

@@ -35,7 +35,7 @@
 
 namespace {
 
-// Of this thread, while it is between two calls of the device.
+// Counts of this thread, while it is between two calls of the device.
 thread_local bool is_watched = false;
 thread_local long allocations = 0, locks = 0;
 
@@ -104,7 +104,7 @@ namespace {
 
 const std::atomic<bool> GOES_ON{false};
 
-// What a run tells; in memory that a child shares with the test.
+// What a run reports; in memory that a child shares with the test.
 struct Seen {
   std::atomic<bool> is_watched{false};  // as seen from outside
   std::array<std::atomic<int>, SESSION_STATES> states{};
@@ -267,9 +267,8 @@ TEST(TickPath, AHandOverTheNetworkNeitherAllocatesNorLocks) {
 
 // ---- system calls ----
 
-// Runs the loop on the clock in a child under the eyes of its parent, and tells the numbers of the calls that it made while it was
-// watched.
-// False: this system does not let itself be watched.
+// Runs the loop on the clock in a child that its parent traces; `calls` gets the numbers of the system calls meanwhile. False: this
+// system does not allow tracing.
 bool watched_calls(std::set<long>& calls, Seen& seen, const std::function<void()>& misbehave) {
   std::fflush(nullptr);
   const pid_t child = fork();

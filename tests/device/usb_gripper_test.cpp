@@ -112,7 +112,7 @@ void leave_a_force_waiting(UsbMock& mock, Gripper& gripper, GripperState& state,
   ASSERT_TRUE(gripper.write({{2, 0, 0}, 0}));
 }
 
-// A force that waits for a slow device while the process stands still is not sent afterwards.
+// A force that waits for a slow device while the process stalls is not sent afterwards.
 TEST(UsbGripper, AForceThatWaitedIsNotSentAfterAStall) {
   MockBench bench;
   UsbMock mock(bench);

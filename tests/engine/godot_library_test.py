@@ -23,7 +23,7 @@ def docs():
 
 
 def numbers(value):
-    """Of texts, lists of them and so on."""
+    """Numbers from texts, from lists of them and so on."""
     return [numbers(one) for one in value] if isinstance(value, list) else float(value)
 
 

@@ -205,7 +205,7 @@ class GodotStream(EngineTest):
         known = grip(self.scene, f"--thumb-mm={place[0]}", f"--index-mm={place[1]}", f"--roll-deg={roll:.12g}")
         self.assertTrue(known["feasible"])
         # A session takes a tip that is within the contact tolerance for one that touches. The hand of a grip touches. The tip's own
-        # place tells by how much they differ. A finger that turns alone may carry that on tenfold.
+        # place shows by how much they differ. A finger that turns alone may carry that on tenfold.
         apart = max(distance(known["posed_m"][JOINTS.index(f"XR_HAND_JOINT_{finger}_TIP_EXT")], tip)
                     for finger, tip in (("THUMB", thumb), ("INDEX", index)))
         self.assertLess(apart, 4.1e-6)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The best grips of the default scene, all of them, as a user gets them, looked at by a check that shares no code with the kernels: no
+// All best grips of the default scene, as a user gets them, pass a check that shares no code with the kernels: no
 // skin under the table, no bone deep in the glass, no two fingers through each other.
 // sanitizers: none
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 namespace wholehand {
 namespace {
 
-// m. The sweep decides in float (docs/evidence.md: places within 10 um), the check looks at the same grip in double.
+// m. The sweep decides in float (docs/evidence.md: places within 10 um), the check evaluates the same grip in double.
 constexpr double FLOAT = 10e-6;
 
 TEST(BestGrips, OfTheDefaultSceneAreThoseOfABody) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which grips a check looks at.
+// Which grips a check evaluates.
 // sanitizers: address
 #include "evidence/check_sample.h"
 

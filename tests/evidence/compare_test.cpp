@@ -359,7 +359,7 @@ TEST_F(CompareEfforts, FindAWorstStateThatIsNone) {
   EXPECT_EQ(outside("effort short of worst", unlisted).first, with_number(FIELD_WORST_EFFORT_TILT));
 }
 
-// The tilt before the told one is as wrong as the one after, where the effort between them is not 1.
+// The tilt before the reported one is as wrong as the one after, where the effort between them is not 1.
 TEST_F(CompareEfforts, FindASafeTiltThatIsAnother) {
   std::uint64_t changed = 0;
   const auto [wrong, all] = outside("force beyond safe", [&](GatheredPlanes& planes, std::size_t i) {

@@ -128,8 +128,8 @@ TEST(ErrorTime, RowsHaveTheirColumns) {
   EXPECT_GT(rows[2].memory_bytes, rows[0].memory_bytes);
 }
 
-// The depth below the table is a height of the hand: it is compared where there is a table, and what tells fingers where to rest
-// tells it too. Fields that the scene lacks leave their cells empty.
+// The depth below the table is a height of the hand: it is compared where there is a table, and is as exact as where fingers rest.
+// Fields that the scene lacks leave their cells empty.
 TEST(ErrorTime, WholeHandsAreCompared) {
   Scene scene = three_beakers();
   scene.tilts.clear();

@@ -184,7 +184,7 @@ TEST(ErrorTime, FrontsAreDrawn) {
     EXPECT_TRUE(has(svg, text)) << text;
   EXPECT_FALSE(has(svg, ">beaten</text>")) << "only the front is named";
   EXPECT_EQ(drawn_marks(svg, color_text(okabe_ito::BLUE)), rows.size() + 1) << "and one in the legend";
-  // the axes end at a 1, 2 or 5 beyond the values: 0.5 to 10 us; an error of 0 stands at 1e-9 um
+  // the axes end at a 1, 2 or 5 beyond the values: 0.5 to 10 us; an error of 0 is drawn at 1e-9 um
   const DrawnAxes axes = drawn_axes(svg).at(0);
   const auto front = drawn_lines(svg, "#a0a0a0").at(0);
   ASSERT_EQ(front.size(), 3u);

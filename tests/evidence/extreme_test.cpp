@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes of scene/extreme: each says what makes it hard and what must come out, and that comes out of the core.
+// The scenes of scene/extreme: each says what makes it hard and what the result must be, and the core gives it.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ core_f64::HandStrength scene_strength(const AnsweredScene& a, std::size_t v, std
 // Prices of 1e6, or as much times as the digits differ in strength, each rounded by 1e-16.
 constexpr double EFFORT_ROUNDED = 1e-6;
 
-// ---- what must come out, scene by scene, of the core in double ----
+// ---- expected results, scene by scene, of the core in double ----
 
 void along_the_axis(const AnsweredScene& a) {
   for (std::size_t i = 0; i < a.grips[0].size(); ++i) {
@@ -465,7 +465,7 @@ void stiffest_gains(const AnsweredScene& a) {
   EXPECT_NEAR(pushed.y, 10, 1e-12);
 }
 
-// The scenes of the issue, and what is looked at in each.
+// The scenes of the issue, and the checks of each.
 const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"along_the_axis", along_the_axis},
     {"center_of_mass", center_of_mass},

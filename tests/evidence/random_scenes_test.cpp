@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes that nobody chose: float agrees with double to the comparisons' tolerances, or a sweep in float warns; and a device agrees
+// Random scenes: float agrees with double to the comparisons' tolerances, or a sweep in float warns; and a device agrees
 // with the core. The whole of it: WHOLEHAND_RANDOM_SCENES=2000 and WHOLEHAND_RANDOM_DEVICE_SCENES=200 of the environment. One scene:
 // WHOLEHAND_RANDOM_SCENES=1 WHOLEHAND_RANDOM_SEED=77.
 // sanitizers: none

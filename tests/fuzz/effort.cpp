@@ -56,7 +56,7 @@ Vec3 normal_of(Choices& choose) {
 
 Vec3 place_of(Choices& choose) { return {choose.in(COORDINATE), choose.in(COORDINATE), choose.in(COORDINATE)}; }
 
-// Of its own, or one's that was, with its normal, the opposite one or another.
+// A new contact, or one that shares the place of an earlier one or its normal, equal or opposite.
 ContactPoint contact_of(Choices& choose, const std::vector<ContactPoint>& before) {
   ContactPoint contact{place_of(choose), normal_of(choose), choose.of(DIGITS)};
   if (before.empty() || choose.yes()) return contact;

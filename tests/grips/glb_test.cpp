@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A grip as glTF, opened again by tinygltf: nodes, places, bounds, the liquid's volume, and what the extras tell.
+// A grip as glTF, opened again by tinygltf: nodes, places, bounds, the liquid's volume, and the extras.
 // sanitizers: address
 #include "grips/glb.h"
 

@@ -98,7 +98,7 @@ TEST(Holding, OfTwoTipsIsTheHoldForceOverTheWeaker) {
   }
 }
 
-// Every state is looked at from a cold start: nothing that is skipped is worse.
+// Solves every state from a cold start: no skipped state is worse.
 TEST(Holding, TheWorstIsTheWorstOfAllStates) {
   const Scene scene = few_states();
   for (std::size_t vessel = 0; vessel < scene.vessels.size(); ++vessel)
@@ -211,7 +211,7 @@ TEST(Holding, LeavesOutWhatTheSceneLeavesOut) {
   EXPECT_EQ(report.hold->states, static_cast<int>(report.holds.size()) - left_out);
 }
 
-// A sphere on a bone is told apart from the joint at the bone's end, and is not a tip.
+// A sphere on a bone is distinct from the joint at the bone's end, and is not a tip.
 TEST(Holding, TellsTheSpheresOnBones) {
   Scene scene = few_states();
   scene.hand.between = 2;
@@ -259,7 +259,7 @@ TEST(Holding, IsInTheJson) {
   EXPECT_TRUE(fallen["states"][0]["effort"].is_null());
   EXPECT_EQ(fallen["states"][0]["worst_direction"].size(), 6u);
   EXPECT_LT(fallen["states"][0]["worst_direction"][1].get<double>(), 0) << "down";
-  // of many such states, the one that is called the worst
+  // among many such states, the one that is reported as the worst
   const GripReport none = held_report(smooth, 0, beside(0.055));
   const std::string table = grip_table(none);
   EXPECT_NE(table.find(fmt::format("  listed effort  no force holds it, in the hardest of the states listed above: {}, "

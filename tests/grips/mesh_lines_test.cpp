@@ -130,8 +130,8 @@ TEST(MeshLines, AnOpenRimIsDrawn) {
   EXPECT_NEAR(length_of(bowl.front().contours) / (PI * 0.05 + 2 * 0.1), 1, 0.02);  // the rim twice, near and far
 }
 
-// Of a box without a lid the corners within are seen, from the back of its walls; of a closed one no edge between two faces that
-// are turned away is, not even where it lies on the contour.
+// A box without a lid shows its inner corners, from the back of its walls; a closed one shows no edge between two faces that are turned
+// away, not even on the contour.
 TEST(MeshLines, AnOpenBoxShowsItsInside) {
   TriangleMesh box = box_mesh({-0.02, 0, -0.02}, {0.02, 0.03, 0.02});
   std::erase_if(box.triangles, [&](const auto& t) {
@@ -143,7 +143,7 @@ TEST(MeshLines, AnOpenBoxShowsItsInside) {
   const MeshEdges edges = find_edges(open);
   const Triple up{0, std::sqrt(0.5), -std::sqrt(0.5)}, toward{0, std::sqrt(0.5), std::sqrt(0.5)};
   const MeshLines lines = MeshView(open, edges, {1, 0, 0}, up, toward, PIXEL).lines();
-  // of the inside both upright corners at the back and the edge of the floor between them; the near wall hides their lower 0.01 m
+  // inside, both upright corners at the back and the floor's edge between them; the near wall hides their lower 0.01 m
   double inner = 0;
   for (const auto& line : lines.creases) {
     for (std::size_t i = 1; i < line.size(); ++i) inner += std::hypot(line[i][0] - line[i - 1][0], line[i][1] - line[i - 1][1]);

@@ -375,7 +375,7 @@ TEST(GripReport, LiquidLeansWhereTheCoreSaysForEitherHand) {
   }
 }
 
-// A state that the scene leaves out has its liquid and no forces. Of tilts that are asked for none is left out.
+// A state that the scene leaves out has its liquid and no forces. No requested tilt is left out.
 TEST(GripReport, StatesThatAreLeftOutHaveNoForces) {
   Scene scene = cup_scene("right", "away");
   scene.tilts = {0, 0.5, 1.0, 1.5, 2.0, 2.5};
@@ -440,7 +440,7 @@ TEST(GripReport, PlanesGiveWhatTheCoreGives) {
     EXPECT_EQ(grip_json(make_grip_report(cut, 1, grip, axes, cut_direct)),
               grip_json(make_grip_report(cut, 1, grip, axes, cut_planes)));
   }
-  // planes of float tell the scene's own tilts
+  // planes of float have the scene's own tilts
   cut.tilts = {0, radians(75), radians(150)};
   cut.until_poured.reset();
   cut.force.grip_strength = 1e3;

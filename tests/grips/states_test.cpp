@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a drawing tells of a point, and when there is nothing to draw.
+// What a drawing shows of a point, and when there is nothing to draw.
 // sanitizers: address
 #include "grips/states.h"
 
@@ -26,7 +26,7 @@ TEST(GripStates, AProjectedPointTouchesToo) {
   EXPECT_STREQ(POINT_STYLES[static_cast<std::size_t>(PointState::projected)].name, "projected");
 }
 
-// In grey print the two that touch are alike, and dark beside the third; a drawing's shapes tell them apart.
+// In grey print the two that touch are alike, and dark beside the third; a drawing's shapes distinguish them.
 TEST(GripStates, TouchingIsDarkerThanFree) {
   const auto lightness = [](PointState state) {
     const auto& c = POINT_STYLES[static_cast<std::size_t>(state)].color;
@@ -72,7 +72,7 @@ TEST(GripStates, TheHardestStateIsTheFirstOfThoseThatTakeMost) {
   EXPECT_EQ(hardest_state(report), 3u);
 }
 
-// Of states that take as much, the one that is called the worst elsewhere: two names for one thing would puzzle.
+// Among states of equal effort, the hardest is the one reported as the worst: two names for one state would confuse.
 TEST(GripStates, TheHardestStateIsTheWorstWhereThatIsListed) {
   GripReport report;
   report.holds.resize(3);

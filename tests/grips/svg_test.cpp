@@ -167,7 +167,7 @@ TEST(GripSvg, FitsOnAPage) {
   }
 }
 
-// And to the left in the side view: the mouth leans away from it to the right.
+// The hand is also on the left in the side view: the mouth leans away from it to the right.
 TEST(GripSvg, TheHandIsInFrontInTheFrontView) {
   const Scene scene = three_beakers();
   const std::string svg = drawn(scene, 0, {0.0585, 0.7, 0, 0.38, 0, 1});

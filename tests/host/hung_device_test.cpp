@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device that is not done in time. What it may still use is never freed: the leak sanitizer would tell of that.
+// A device that is not done in time. Memory that it may still use is never freed: the leak sanitizer would report that.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace wholehand::host {
 namespace {
 
-// What hangs is waited for no longer than was said, and nothing that it may still use is freed: neither waits for it.
+// The program waits for a hung device no longer than asked, and frees nothing that the device may still use: neither waits for it.
 TEST(HungDevice, IsLeftBehind) {
   constexpr std::size_t INVOCATIONS = 1 << 20, DISPATCHES = 100;
   const volatile std::uint32_t* counter = nullptr;
@@ -39,7 +39,7 @@ TEST(HungDevice, IsLeftBehind) {
   } catch (const DeviceLost& error) {
     EXPECT_TRUE(error.hung);
   }
-  if (!counter) return;  // only a CPU's memory can be looked at
+  if (!counter) return;  // only a CPU's memory can be read here
   EXPECT_LT(*counter, INVOCATIONS * DISPATCHES) << "its end was waited for";
   for (int i = 0; i < 6000 && *counter < INVOCATIONS * DISPATCHES; i++) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(*counter, INVOCATIONS * DISPATCHES) << "it went on after its buffer was freed";

@@ -131,7 +131,7 @@ void expect_bounds(const std::map<std::string, std::int64_t>& turns, const std::
   }
 }
 
-// That a kernel took more turns than `least`, where the driver counts them. One that ends no loops leaves none for the meter to miss.
+// Expects that a kernel took more turns than `least`, where the driver counts them. One that ends no loops leaves none to miss.
 void expect_worst(bool counts, std::int64_t turns, std::int64_t least, const std::string& kernel) {
   EXPECT_GE(turns, counts ? least + 1 : 0) << kernel << ": not its worst";
   EXPECT_LE(turns, counts ? TURN_BUDGET : 0) << kernel;
@@ -234,7 +234,7 @@ TEST(Turns, AGripWhoseTurnsRunOutIsTheCores) {
   }
 }
 
-// Either that its loops leave no steps, or that no status can tell of which grips the steps were too few.
+// Either its loops leave no steps, or no status can say for which grips the steps were too few.
 TEST(Turns, AVesselWhoseStepsMayBeTooFewWithoutAWordIsTheCores) {
   Scene scene = scene_of({belly_of_most_elements()});
   scene.hand.between = MOST_BETWEEN;

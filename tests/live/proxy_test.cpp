@@ -190,7 +190,7 @@ TEST(Proxy, KeepsUpWithASlidingTip) {
   }
 }
 
-// Whatever a tip does, what is said to touch is on the surface, within the 20 um of a bare point's least step.
+// Whatever a tip does, a reported touch is on the surface, within the 20 um of a bare point's least step.
 TEST(Proxy, TouchesOnlyWhatItIsAt) {
   Random random(21);
   for (const double radius : {0.0, FINGERTIP}) {

@@ -107,7 +107,7 @@ TEST(Session, AThinWallHoldsAFastFinger) {
   }
 }
 
-// A vessel in which a tip stands at the start is not felt until both have left it.
+// A vessel in which a tip is at the start is not felt until both have left it.
 TEST(Session, StartsWithoutAForce) {
   Scene scene = scene_of({beaker1()});
   const auto at = [](std::int64_t n) {
@@ -145,7 +145,7 @@ constexpr FeltGrip FELT_GRIPS[] = {
     {2, Torque::exact, 0, 0}, {2, Torque::exact, 0, 0.3}, {2, Torque::exact, 2.1, 0}, {2, Torque::exact, 2.1, 0.3},
 };
 
-// What of a tick is what of a sweep's state.
+// A value of a tick, and the same of a sweep's state.
 struct FeltValue {
   const char* name;
   double (*felt)(const Tick&);

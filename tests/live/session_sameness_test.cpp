@@ -105,7 +105,7 @@ TEST(Session, MissedTicksAreOnlyTime) {
   EXPECT_NEAR(liquid_in_sight(some.back(), 0), some[0].volume[0], 1e-15);
 }
 
-// Who shows a session finds the effort, from the tick: what is felt and recorded is the same to the bit.
+// Displays find the effort from the tick: what is felt and recorded is the same to the bit.
 TEST(Session, StrengthsChangeNoTick) {
   Scene scene = live_scene();
   const std::vector<Tick> without = play_session(scene, script_for(scene));

@@ -87,7 +87,7 @@ TEST(Session, SlipsWhenTheOpeningLeavesItsBand) {
     EXPECT_EQ(tick.wanted.grip, 0);
     EXPECT_EQ(tick.wanted.arm, Triple{});
     EXPECT_EQ(tick.state, SessionState::slipped);
-    // and stands there after RETURN_TIME
+    // and is there after RETURN_TIME
     const std::int64_t slipped = tick.number;
     const Tick& back = record[static_cast<std::size_t>(slipped + std::lround(1000 * RETURN_TIME))];
     EXPECT_LT(glm::length(to_vec3(back.vessel_place) - to_vec3(scene.vessels[0].place)), 1e-9);
@@ -106,12 +106,12 @@ TEST(Session, SlipsWhenTheOpeningLeavesItsBand) {
   EXPECT_EQ(record.back().lost, 1);
 }
 
-// Where the fingers still stand in its place, it is not felt and not grasped until they have left it.
+// Where the fingers are still in its place, it is not felt and not grasped until they have left it.
 TEST(Session, AVesselThatCameBackWaitsForTheFingersToLeave) {
   Scene scene = live_scene();
   scene.live.slip = 0.5e-3;
   const LiveScript script = script_for(scene);
-  // carried aside by 12 mm and let go: the thumb then stands in its place, until the fingers open
+  // carried aside by 12 mm and let go: the thumb is then in its place, until the fingers open
   const double grasped = [&] {
     for (const Tick& tick : play_session(scene, script))
       if (is_held(tick.state)) return script.at(tick.number).gap;

@@ -32,8 +32,8 @@ std::array<Triple, JOINT_COUNT> posture(const LiveScene& live, const Tick& tick,
   return hand_posture(live, tick, poses, yielding).posed;
 }
 
-// Without liquid nothing but the tilt changes on the way: what is said is what hand_hold finds there. From a vessel that leans,
-// over the side to which it leans, and from one that is upright, over that to which the scene pours: the script tilts to there.
+// Without liquid only the tilt changes on the way: the prediction is what hand_hold finds there. A leaning vessel tilts on over the
+// side to which it leans, an upright one over that to which the scene pours: the script tilts to there.
 TEST(TiltsAhead, AreWhatTheHandThenNeeds) {
   Scene scene = strong_scene();
   scene.vessels[0].liquid_fill = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where vessels are while a session tells of one at a time.
+// Where vessels are while a session reports one at a time.
 // sanitizers: address
 #include "live/vessel_tracker.h"
 

@@ -90,7 +90,7 @@ TEST(Workspace, TheScenesGapComesFirst) {
   Scene scene = plain();
   scene.device.gap = {0.01, 0.11};
   scene.device.has_gap = true;
-  Workspace workspace(scene, {0, 0}, OF_HAND);  // the device tells none
+  Workspace workspace(scene, {0, 0}, OF_HAND);  // the device reports none
   EXPECT_EQ(workspace.device_gap(), (std::array<double, 2>{0.01, 0.11}));
   EXPECT_EQ(workspace.map(state_of(Vec3(0), Mat3(1), 0.01)).gap, OF_HAND[0]);
 }
@@ -101,7 +101,7 @@ TEST(Workspace, RefusesAGapThatIsNoRange) {
   }
 }
 
-// Axes of the device named in the world's: each of its axes lies along what is said, and a turn about it becomes a turn about that.
+// Axes of the device named in the world's: each of its axes lies along the named one, and a turn about it becomes a turn about that.
 TEST(Workspace, FollowsTheAxesAndTheScale) {
   Scene scene = plain();
   scene.device.axes = {"-z", "x", "-y"};

@@ -378,7 +378,7 @@ TEST_F(MeshCache, TheKeyIsThatOfTrianglesAndLattice) {
   EXPECT_TRUE(keys.insert(mesh_key(other, lattice)).second);
 }
 
-// A pipe in a file's place, which nobody writes to, would be waited for without end.
+// Reading a pipe in a file's place without a writer would wait without end.
 TEST_F(MeshCache, DoesNotWaitForAPipe) {
   const MeshLattice made = ask();
   const fs::path file = files().at(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said of a mesh before it is used.
+// Checks of a mesh before it is used.
 #include "objects/check.h"
 
 #include <fmt/format.h>

@@ -304,7 +304,7 @@ TEST(MeshLattice, OverlappingBodiesEncloseTheirUnion) {
   EXPECT_NEAR(boxes.volume, 400e-6, 1e-6);
   EXPECT_NEAR(boxes.center[0], 0.03, 1e-4);
   EXPECT_NEAR(boxes.center[1], (360 * 0.05 + 40 * 0.11) / 400, 1e-4);
-  // of one ball: rounding of chords is the mesh's own; what is left falls with the square of the spacing
+  // one ball: the chords' error is the mesh's own; what is left falls with the square of the spacing
   const CheckedMesh ball = check_mesh(icosphere(0.03, 4), "ball");
   EXPECT_NEAR(enclosed(icosphere(0.03, 4), 1e-3).volume, ball.facts.volume, 1e-3 * ball.facts.volume);
 }

@@ -97,7 +97,7 @@ TEST(Mesh, AFileIsReadOnceItsRemedyIsFollowed) {
   }
 }
 
-// A prism of so many sides, whose ends are polygons, or triangles.
+// A prism with `sides` sides, whose ends are polygons, or triangles.
 std::string prism_text(int sides, bool is_cut) {
   std::string text;
   for (const int y : {0, 1})

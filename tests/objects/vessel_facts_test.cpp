@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vessels from mesh files: what is read and said of them, and what is refused.
+// Vessels from mesh files: what is read, reported and refused.
 // sanitizers: none (sampling its meshes would be most of a sanitized run; mesh_commands_test goes the same way)
 #include "objects/vessel.h"
 
@@ -112,7 +112,7 @@ TEST_F(MeshVessel, BodiesThatOverlapOrFaceInwardWeighWhatTheyHold) {
   VesselData two = of_file("two", joined(large, inverted), 1e-3);
   EXPECT_NEAR(make_core_evaluator(loaded({two}))->empty_mass(0), 480e-6 * two.density, 1e-6) << "single precision, in the file";
   EXPECT_NE(said_.find("12 triangles faced inward and were turned outward."), std::string::npos) << said_;
-  // a wall within: the lattice tells what is inside, and where its middle is
+  // a wall within: the lattice knows what is inside, and where its middle is
   TriangleMesh walled = large;
   walled.triangles.push_back({0, 2, 5});
   const auto core = make_core_evaluator(loaded({of_file("walled", walled, 1e-3)}));
@@ -198,7 +198,7 @@ TEST_F(MeshVessel, KeysTellMeshesAndLatticesApart) {
   EXPECT_EQ(mesh_lines(two).find("vessel 'a': a.glb: 320 triangles"), 0u);
 }
 
-// Of a device that allowed less than this machine does.
+// The lattices come from a device that allowed less memory than this machine does.
 TEST_F(MeshVessel, AResultsLatticesAreMadeAgainWhateverTheMemory) {
   const ScopedVariable cache("XDG_CACHE_HOME", folder_.c_str());
   const VesselData ball = of_file("ball", torus(0.03, 0.01, 12, 6), 0);

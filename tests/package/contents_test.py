@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The Debian packages: what stands in them, and that the unpacked program is at home wherever it lies."""
+"""The Debian packages: their contents, and that the unpacked program runs wherever it lies."""
 
 import glob
 import os

@@ -83,7 +83,7 @@ for home in "" HOME=/nonexistent HOME=/usr; do
   check "and shows the best" has "$output" "  rank  "
   rm -f small.*
 done
-# on a busy machine a file of somebody else may go while find looks at it, which is no answer of its own
+# on a busy machine another user's file may go while find reads it, which is no failure
 output=$("${as_root[@]}" find / -xdev -user 65534 -newer "$work/files" -not -path "$work/*" -not -path '/proc/*' 2>/dev/null || :)
 check "nothing is written elsewhere" equal "$output" ""
 output=$(cd / && nobody wholehand sweep small --on core 2>&1) && code=0 || code=$?

@@ -11,7 +11,7 @@
 namespace wholehand {
 namespace {
 
-// Of the same chain of SplitMix64 in Python.
+// The numbers come from the same chain of SplitMix64 in Python.
 TEST(Draws, AreThoseOfAnotherProgram) {
   EXPECT_EQ(drawn({0, 0, 0, 0}, 0), 0.4714104296684803);
   EXPECT_EQ(drawn({1, 2, 3, 4}, 5), 0.992563044392504);

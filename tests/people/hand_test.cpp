@@ -57,7 +57,7 @@ TEST(PersonHand, KeepsWhatIsNotSize) {
   EXPECT_EQ(hand.depth_limit, 7e-3);
 }
 
-// The size of the scene's hand has no influence, whatever else the scene says of the hand: proportions alone tell hands apart.
+// The size of the scene's hand has no influence, whatever else the scene says of the hand: proportions alone distinguish hands.
 TEST(PersonHand, IsTheSameOfAHandOfAnySize) {
   HandData thin = left_hand();
   for (FingerData& finger : thin.fingers) finger.radii.fill(0);

@@ -16,7 +16,7 @@ namespace {
 constexpr int PEOPLE = 20000;
 constexpr std::uint64_t SEED = 11;
 
-// Of a population, as it comes (Welford).
+// Running mean and variance of a population (Welford).
 struct Moments {
   double middle = 0, squares = 0;
   int count = 0;

@@ -180,7 +180,7 @@ class Best(InFolder):
         for kind in (np.uint8, np.uint32, np.int8):
             found = wh.best(data, n=4, apart_mm=0, by=data.fingers_used.where(data.reason == 0, 0).astype(kind))
             np.testing.assert_array_equal(found["score"], expected["score"])
-        # of truths the true ones come first
+        # by truth values, the true ones come first
         good = data.score > 0.5
         np.testing.assert_array_equal(
             wh.best(data, n=4, apart_mm=0, by=good)["score"], wh.best(data, n=4, apart_mm=0, by=good.astype(float))["score"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes from names, paths, texts and dicts; what is wrong with one is said as the program says it."""
+"""Scenes from names, paths, texts and dicts; errors have the program's words."""
 
 import pathlib
 import pickle

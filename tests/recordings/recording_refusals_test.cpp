@@ -62,7 +62,7 @@ class Changed {
     header_ = classic::parse_header(whole_, whole_.size());
   }
 
-  // Another name of the same length, wherever it stands in the header.
+  // Another name of the same length, anywhere in the header.
   std::string& renamed(const std::string& from, const std::string& to) {
     bytes_ = whole_;
     std::string length;
@@ -205,7 +205,7 @@ TEST(Recording, ReadsWhatIsThereOfACutFile) {
       EXPECT_EQ(recording.note, fmt::format("{} is cut off: {} of 10 ticks are there", path, records));
     }
   }
-  // as some programs leave the count: the file's length tells
+  // as some programs leave the count: the file's length decides
   const std::string& path = changed.with_byte(4, '\xff');
   std::string bytes = file_text(path);
   bytes.replace(4, 4, "\xff\xff\xff\xff");

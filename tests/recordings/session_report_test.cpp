@@ -143,7 +143,7 @@ TEST(SessionReport, WayToTheTiltThatIsMaintained) {
   EXPECT_NEAR(grasp.grip_change, 0, 1e-9);
 }
 
-// There with a rest on the way, and back: the way there ends where the largest tilt is reached.
+// A tilt with a rest on the way, and back: the way there ends at the largest tilt.
 TEST(SessionReport, WayBackDoesNotCount) {
   RecordedSession session;
   const auto to = [](double from, double until, double seconds) {

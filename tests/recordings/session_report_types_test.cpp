@@ -53,7 +53,7 @@ TEST(SessionReport, TypeG4WhereItTurnsBack) {
   const GraspReport grasp = only_grasp(tilted_session(radians(90), swing(0.5), normal));
   EXPECT_EQ(grasp.course, GripCourse::complex);
   EXPECT_GT(grasp.turning_back, 0.2);
-  // of the same ends: only the way between them differs
+  // the same ends: only the way between them differs
   EXPECT_EQ(only_grasp(tilted_session(radians(90), swing(0.05), normal)).course, GripCourse::equal);
   // up and down again
   EXPECT_EQ(only_grasp(tilted_session(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The best grips: their numbers, their drawings cut out of the whole one, and what is said where there are none.
+// The best grips: their numbers, their drawings cut out of the whole one, and the text where there are none.
 // sanitizers: address
 #include "report/grips.h"
 
@@ -68,7 +68,7 @@ TEST(ReportGrips, RefinedGripsAreToldBesideTheSweptOnes) {
   EXPECT_EQ(before.find("efined"), std::string::npos) << "nothing was refined";
   SweptScene swept(RESULT_SCENE);
   const auto listed = swept.result->best(0);
-  // of each rank a place of its own in its box; none of the second
+  // each rank has its own place in its box; the second has none
   std::vector<double> scores;
   std::array<std::vector<double>, REFINED_COORDINATES> places;
   std::vector<GripInput> grips;
@@ -105,7 +105,7 @@ TEST(ReportGrips, RefinedGripsAreToldBesideTheSweptOnes) {
   EXPECT_EQ(times_in(html, "<th scope=\"row\">"), times_in(before, "<th scope=\"row\">"));
 }
 
-// Beside each grip what it scores at random deviations; without [robust] nothing is said of it.
+// Each grip has its score at random deviations beside it; without [robust] there is none.
 TEST(ReportGrips, RobustScoresAreToldBesideTheScores) {
   EXPECT_EQ(written_grips(SweptScene(RESULT_SCENE), 1).find("obust"), std::string::npos);
   SweptScene swept(edited(RESULT_SCENE, "[tilts]", "[robust]\nroll_deg = 5\ncount = 48\n[tilts]"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps against the file's values gone through one by one, and what is said where the file lacks some.
+// Maps against the file's values gone through one by one, and the text where the file lacks some.
 // sanitizers: address
 #include "report/maps.h"
 

@@ -38,7 +38,7 @@ void expect_well_built(const SweptScene& swept, const std::string& page) {
   EXPECT_EQ(std::system(("/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/report/page_test.py " + path).c_str()), 0);
 }
 
-// Of one height and two rolls the best is at an end of the rolls whatever it is.
+// With one height and two rolls, the best is always at an end of the rolls.
 TEST(ReportPage, TellsThatTheBestIsAtTheEndOfAnAxis) {
   const std::string rolls = edited(RESULT_SCENE, "[-90, -30, 0]", "[-30, 0]");
   const std::string line = "<p>The best grip lies on the edge of roll_deg; widen it?</p>";
@@ -49,7 +49,7 @@ TEST(ReportPage, TellsThatTheBestIsAtTheEndOfAnAxis) {
   EXPECT_FALSE(has(report_page(*still.result, still.scene, ""), "on the edge of"));
 }
 
-// A list need not be in the order of the scores: its first grip is the one of which the page tells.
+// A list need not be in the order of the scores: the page shows its first grip.
 TEST(ReportPage, ShowsTheForcesOfTheFirstGripOfTheList) {
   const SweptScene swept(edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"));
   const std::string list = swept.folder / "firm.csv";

@@ -117,7 +117,7 @@ int MPI_Ibarrier(MPI_Comm all, MPI_Request* request) {
   return PMPI_Ibarrier(all, request);
 }
 
-// Who may run on which processor: not asked here, as ranks have one thread each.
+// Does not exchange which rank may run on which processor, as ranks have one thread each.
 int MPI_Allgather(const void*, int, MPI_Datatype, void*, int, MPI_Datatype, MPI_Comm) {
   charge(depth() * simulation().job.machine.message_seconds);
   return MPI_SUCCESS;

@@ -81,7 +81,7 @@ class SimulatedBackend final : public Backend {
     return std::max(by_node, all.files.serve(now(), bytes / all.job.machine.write_bandwidth));
   }
 
-  // Of scores that lie evenly in (0, 1), the best that may get into a list of `size` after all that this rank has had.
+  // Scores are uniform in (0, 1); these are the best that may get into a list of `size` after all that this rank has had.
   std::vector<Candidate> best_of(std::uint64_t first, std::uint64_t done, std::size_t size) {
     std::vector<Candidate> best;
     const double count = static_cast<double>(done) / ENTRY_WEIGHT;

@@ -7,7 +7,7 @@
 
 namespace wholehand::scale {
 
-// A scene of so many grips that keeps nothing in its file. Its lists are as long as the reports of the machine.
+// A scene with `grips` grips that keeps nothing in its file. Its lists are as long as the reports of the machine.
 Scene simulated_scene(std::uint64_t grips, int entries);
 
 // The parts of a sweep for the rank that calls it. The scene must outlive them.

@@ -40,7 +40,7 @@ const std::string BOWL = fmt::format(
     "}}]",
     std::sqrt(38.0 * 38 - 400));
 
-// Of a ball of radius r between two levels from its middle, mm3.
+// Volume of a ball of radius r between two levels from its middle, mm3.
 double segment(double r, double low, double high) {
   return PI * (r * r * (high - low) - (high * high * high - low * low * low) / 3);
 }

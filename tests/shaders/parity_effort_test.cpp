@@ -19,9 +19,9 @@
 namespace wholehand {
 namespace {
 
-// Of the term 1 / (1 + e), which is finite where an effort is not. Each side solves to half of the tolerance 1e-3 and passes by states that are worse
-// by up to another half; a single state's effort has all of it: together 2e-3 of e, times the term's slope 1 / (1 + e)^2. In float the places of contacts end within 1e-6 m of arms of 5 mm and
-// more, twice: another 4e-4 of e.
+// Tolerance of the term 1 / (1 + e), which is finite where an effort is not. Each side solves to half of the tolerance 1e-3 and skips
+// states that are worse by up to another half; a single state's effort has all of it: together 2e-3 of e, times the term's slope
+// 1 / (1 + e)^2. In float, contacts differ by up to 1e-6 m on arms of 5 mm and more, on both sides: another 4e-4 of e.
 double term_tolerance(Precision precision, double effort) {
   const double share = precision == Precision::single ? 2.4e-3 : 2e-3;
   return std::isfinite(effort) ? share * effort / ((1 + effort) * (1 + effort)) : 0;
@@ -77,7 +77,7 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
     const GatheredPlanes device = gather(*backend, v, grips), truth = gather(*core, fields, v, grips);
     for (std::size_t i = 0; i < grips.size(); ++i) {
       const std::string which = name + " vessel " + std::to_string(v) + " grip " + std::to_string(i);
-      // another contact is another question; which side of 1 two efforts lie on is told by how far they are apart
+      // another contact is another question; the difference of two efforts shows which side of 1 they lie on
       if (((device.uint(FIELD_STATUS, i) ^ truth.uint(FIELD_STATUS, i)) & ~std::uint32_t(STATUS_NOT_HELD)) != 0) continue;
       if (device.uint(FIELD_TOUCH_MASK, i) != truth.uint(FIELD_TOUCH_MASK, i)) continue;
       const auto real = [&](const GatheredPlanes& planes, int field, int k = 0) { return planes.real(fields.plane[field] + k, i); };
@@ -166,7 +166,7 @@ TEST(ParityEffort, OfWeakHandsThatLetGo) {
   for (double& digit : scene.strength->digits) digit *= 0.1;
   scene.tilts = linspace(0, PI, 13);
   const Compared all = expect_same_efforts(scene, "weak");
-  EXPECT_GT(all.beyond, all.infinite);  // else no safe tilt was looked for
+  EXPECT_GT(all.beyond, all.infinite);  // else no safe tilt was searched for
 }
 
 // More states than a block of the kernel holds, and states that are left out.
@@ -205,7 +205,7 @@ TEST(ParityEffort, TheDeviceChoosesNoGripThatDoesNotHold) {
   }
 }
 
-// Of these a part is held by spheres between joints.
+// Spheres between joints hold some of these grips.
 TEST(ParityEffort, OfAHandWithSpheresBetweenItsJoints) {
   for (const int between : {2, 5}) {
     Scene scene = strong_scene({beaker1(), beaker3()});

@@ -82,7 +82,7 @@ TEST_F(ParityLeaf, NearestShare) {
 // their own: 7 units, or 7 epsilon for the two. Their size is |u| |v|^2 |r| in the numerator and |u|^2 |v|^2 in the denominator,
 // which itself is |u|^2 |v|^2 sin^2. So s is off by 7 epsilon (1 + |r| / |u|) / sin^2, and by 1 at most. Over that way the distance
 // of the axes changes by no more than sin |u| each unit of s. If the radii change by more than that, the overlap is largest at an
-// end, which is looked at; otherwise the radii change the overlap by less than that again. Device and core may be off in opposite
+// end, which is evaluated; otherwise the radii change the overlap by less than that again. Device and core may be off in opposite
 // directions: twice. A bone of no length has products of exactly 0.
 double rounding_of_overlap(const double* given, double epsilon) {
   using core_f64::Vec3;

@@ -19,7 +19,7 @@
 namespace wholehand {
 namespace {
 
-// Of decisions on inputs that are no boundary on purpose.
+// Share of undecided inputs among those that are not on a boundary on purpose.
 constexpr double ONE_IN_A_THOUSAND = 1e-3;
 
 // ---- one element ----
@@ -96,7 +96,7 @@ TEST_F(ParityLeaf, ElementByExactArithmetic) {
         const std::array<double, 2> q{i * UNIT / 2, k * UNIT / 2};
         Builder row(0);
         row.element(element).add(q[0]).add(q[1]).add((i + k) % 2 == 0 ? 1 : -1);
-        // of the points whose answer hinges on a root the ends alone: few enough for the bound, however the device rounds
+        // points whose answer hinges on a root: only the ends, few enough for the bound, however the device rounds
         if (on_edge_of_sector(row.table.data()) && q != element.a && q != element.b) continue;
         build.table.insert(build.table.end(), row.table.begin(), row.table.end());
       }

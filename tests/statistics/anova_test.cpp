@@ -22,7 +22,7 @@ TEST(Anova, OfAnotherProgram) {
   EXPECT_EQ(anova->within, 9);
 }
 
-// Of two groups F is the square of Student's t: means 1 and 3, both with a variance of 1 over n - 1.
+// For two groups, F is the square of Student's t: means 1 and 3, both with a variance of 1 over n - 1.
 TEST(Anova, OfTwoGroupsIsTheSquareOfT) {
   const auto anova = one_way_anova(std::vector<std::vector<double>>{{0, 1, 2}, {2, 3, 4}});
   ASSERT_TRUE(anova);

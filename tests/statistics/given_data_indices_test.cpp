@@ -67,7 +67,7 @@ TEST(GivenDataIndices, OfIshigamisFunction) {
     EXPECT_NEAR(index.first, known[i], 5 * deviation_of_index(index)) << i;
     EXPECT_LT(deviation_of_index(index), 0.01);
   }
-  EXPECT_NEAR(sine_in_bins(2 * bin), 0.95, 1e-3);  // the loss that the header tells
+  EXPECT_NEAR(sine_in_bins(2 * bin), 0.95, 1e-3);  // the loss that the header states
 }
 
 TEST(GivenDataIndices, AgreeWithThoseOfTwoSamples) {
@@ -142,7 +142,7 @@ TEST(GivenDataIndices, OfTooFewEntriesAreNone) {
   constexpr int LEAST = GivenDataIndices::LEAST_VALUES;
   EXPECT_TRUE(std::isnan(given_indices(model, LEAST - 1).first_order(0, 0).first));
   EXPECT_TRUE(std::isnan(GivenDataIndices(2, 1).first_order(0, 1).first));
-  // what it is told alone, and the rest is of the line within its bins
+  // the input explains all; the rest is the line's slope within the bins
   EXPECT_NEAR(given_indices(model, LEAST).first_order(0, 0).first, 1, 0.01);
 }
 

@@ -18,7 +18,7 @@ TEST(Logistic, OneTermByHand) {
   EXPECT_FALSE(model.has_ridge);
   EXPECT_NEAR(model.coefficients[0], 2 * std::log(3), 1e-9);
   EXPECT_NEAR(model.intercept, -std::log(3), 1e-9);
-  // of a log odds ratio: the root of the sum of 1 / each of the four counts
+  // standard error of a log odds ratio: the root of the sum of 1 / each of the four counts
   EXPECT_NEAR(model.errors[0], std::sqrt(1 / 3.0 + 1 + 1 / 3.0 + 1), 1e-9);
   EXPECT_NEAR(model.interval(0).high - model.interval(0).low, 2 * NORMAL_95 * model.errors[0], 1e-12);
 }

@@ -59,7 +59,7 @@ TEST(AdviceStatistics, SayWhereItDoesNotHelp) {
   EXPECT_EQ(advice_sentences(advice_rows(std::vector{person(0.3, 0.2)}, 1, 200, 1))[1], "Effort: there are too few people to say.");
 }
 
-// Who grasps nothing in one of the sessions has no share and no effort; a session that did not end has no time.
+// A person without a grasp in one of the sessions has no share and no effort; a session that did not end has no time.
 TEST(AdviceStatistics, LeaveOutWhatIsNotThere) {
   std::vector<AdvisedPerson> people(3, person(0.3, 0.2));
   people.push_back({{0, 0, NO_NUMBER, 600, 0}, {4, 4, 0.9, 50, 1}});

@@ -78,7 +78,7 @@ TEST(ContactPool, ASampleHasThePapersGraspsNoneTwice) {
   }
 }
 
-// Of the third vessel, every second grasp of a person is lost; of the second, all are.
+// Every second person loses all grasps on the third vessel; everybody loses those on the second.
 TEST(ContactPool, StopsWhereEnoughGraspsHold) {
   const std::vector<StudyVessel> vessels = pool_vessels();
   ContactPool pool(vessels, 60);
@@ -174,7 +174,7 @@ TEST(ContactPool, SaysWhereItIsSmall) {
 }
 
 // A population has as many grasps of each vessel, and a sample has not. All together are those of a sample in which the grasps have
-// the numbers of the paper: 22, 32 and 18 that hold, of each of 5. Of the first vessel every second one is lost: 44 are made.
+// the numbers of the paper: 22, 32 and 18 that hold, of each of 5. Every second grasp of the first vessel is lost: 44 are made.
 TEST(VesselTallies, AllHaveTheProportionsOfASample) {
   const std::vector<StudyVessel> vessels{{0, "one", 22, true, 0, 4}, {1, "two", 32, true, 4, 8}, {2, "three", 18, true, 8, 12}};
   VesselTallies tallies(vessels);
@@ -197,7 +197,7 @@ TEST(VesselTallies, AllHaveTheProportionsOfASample) {
     const double value = values[3 * expected.size() + k];
     EXPECT_EQ(std::isnan(value), std::isnan(expected[k])) << contact_statistics()[k].name << contact_statistics()[k].subject;
     if (std::isnan(value)) continue;
-    // of sums of some hundred numbers
+    // rounding of sums of some hundred numbers
     EXPECT_NEAR(value, expected[k], 1e-12) << contact_statistics()[k].name << contact_statistics()[k].subject;
     most = std::max(most, std::abs(value - plain[k]));
   }

@@ -26,7 +26,7 @@ std::map<std::string, double> tally_values(const std::vector<ContactGrasp>& gras
   return values;
 }
 
-// So many bits from bit `first` on.
+// `count` bits from bit `first` on.
 std::uint32_t low_bits(int count, int first = 0) { return ((1u << count) - 1) << first; }
 
 // Five that hold, and one that does not and so is nowhere but in the share.

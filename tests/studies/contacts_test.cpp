@@ -218,7 +218,7 @@ TEST(StudyContacts, WhatIsLeftOutChangesNothing) {
       if (own.pose == Pose::paper) {
         for (FingerData& finger : own.hand.fingers) finger.radii.fill(0);
       }
-      own.table.reset();  // a session does not look at it
+      own.table.reset();  // a session ignores it
       const auto core = make_core_evaluator(own);
       for (std::size_t g = 0; g < plan.grasps().size(); ++g) {
         const PlannedGrasp& planned = plan.grasps()[g];
@@ -251,7 +251,7 @@ TEST(StudyContacts, WhatIsLeftOutChangesNothing) {
   EXPECT_GT(projected.size(), 3u) << "masks must differ";
 }
 
-// Other commands refuse this hand. People's hands are made to close, so that without a look at it the study would take it.
+// Other commands refuse this hand. People's hands are made to close, so without a check the study would take it.
 TEST(StudyContacts, AHandThatDoesNotCloseIsRefused) {
   Scene scene = study_scene();
   scene.hand.pip.closed = radians(90);
@@ -270,7 +270,7 @@ TEST(StudyContacts, StopsWhereItIsAsked) {
   EXPECT_FALSE(study_contacts(ContactPlan(scene), study_options(5), stop).has_value());
 }
 
-// Its rows could not be told from those of all vessels together.
+// The rows of such a vessel would look like those of all vessels together.
 TEST(StudyContacts, AVesselMayNotBeNamedAll) {
   Scene scene = study_scene();
   scene.vessels[2].name = "all";

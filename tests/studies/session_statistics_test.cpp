@@ -134,7 +134,7 @@ TEST(SessionStatistics, SharesAreOfTheGraspsThatTheyAreSaidOf) {
   grasps.back().after_at_first = 9;
   grasps.back().before.mean = 100;
   grasps.back().outcome = GraspOutcome::lost;
-  // of a vessel that nobody pours from
+  // a grasp of a vessel that nobody pours from
   grasps.push_back(tilted_grasp(0, 50, 50, GripCourse::more));
   grasps.back().outcome = GraspOutcome::lost;
   const auto rows = session_rows(subjects, SESSION_VESSELS, sampling_of(5));

@@ -79,8 +79,8 @@ TEST(Sessions, WithoutScatterEverybodyIsOnePerson) {
   EXPECT_FALSE(same(sessions_of_person(scene, 1, 0, GOES_ON).grasps, sessions_of_person(scene, 1, 99, GOES_ON).grasps));
 }
 
-// Whose gain and margin ask for more than the load rises by more than it. Without scatter and control error the grip over the tilt
-// changes by gain / (1 - margin) - 1 of what the normal force rises.
+// A grip rises by more than the load if gain and margin ask for more. Without scatter and control error the grip over the tilt
+// changes by gain / (1 - margin) - 1 of the rise of the normal force.
 TEST(Sessions, TheGripRisesByGainAndMargin) {
   for (const double gain : {0.6, 0.9, 1.4}) {
     Scene scene = one_beaker();

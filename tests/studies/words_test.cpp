@@ -25,7 +25,7 @@ TEST(CorrelationWords, ChangeAtTheirLimits) {
   EXPECT_EQ(word_of_correlation(std::nan("")), "");
 }
 
-// A word stands beside a number of two digits, and neither contradicts the other.
+// Each number of two digits has a word beside it, and neither contradicts the other.
 TEST(CorrelationWords, AreOfTheNumberAsItIsShown) {
   EXPECT_EQ(word_of_correlation(0.1949), "-");  // 0.19
   EXPECT_EQ(word_of_correlation(0.1951), "P");  // 0.20

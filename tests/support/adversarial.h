@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grips that look for trouble: at the ends of every range, on features of a vessel and a rounding beside them, along its axis, of
+// Grips that provoke errors: at the ends of every range, on features of a vessel and a rounding beside them, along its axis, of
 // the smallest numbers there are; and others drawn from all of the range.
 #pragma once
 
@@ -19,7 +19,7 @@ std::vector<GripInput> adversarial_grips(const Scene& scene, std::size_t vessel,
 // at their ends, no friction, no torsion.
 std::vector<Scene> adversarial_scenes();
 
-// How many grips a search looks at: `portion`, or WHOLEHAND_SEARCH_GRIPS of the environment for all of it (10,000,000 take the core
+// How many grips a search evaluates: `portion`, or WHOLEHAND_SEARCH_GRIPS of the environment for all of it (10,000,000 take the core
 // some minutes).
 std::size_t search_grips(std::size_t portion);
 

@@ -30,7 +30,7 @@ double distance_between(const Triple& a, const Triple& b) {
   return std::sqrt(x * x + y * y + z * z);
 }
 
-// That of two bones is never more: neither has skin further from its middle than half its length and its larger radius.
+// Upper bound on the overlap of two bones: neither has skin further from its middle than half its length and its larger radius.
 double most_overlap(const CheckedBone& a, const CheckedBone& b) {
   double reach = 0;
   for (const CheckedBone* bone : {&a, &b}) reach += bone->length() / 2 + std::max(bone->start_radius, bone->end_radius);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The posed hand as 19 bones with skin, looked at in many places of each: what a grip must not do, found without the kernels that
+// The posed hand as 19 bones with skin, checked at many points of each: what a grip must not do, found without the kernels that
 // decide it. A bone is the rounded cone through its two points: all spheres between the one at its start and the one at its end.
 #pragma once
 
@@ -32,7 +32,7 @@ struct CapsuleCheck {
   std::array<int, 2> overlapping{};  // these two, of `bones`
 };
 
-// Looks at a feasible grip of a vessel. Every value is found at some of a bone's points, so the true one is never below `depth` and
+// Checks a feasible grip of a vessel. Every value is found at some of a bone's points, so the true one is never below `depth` and
 // `overlap` and never above `lowest`: what fails here fails.
 CapsuleCheck check_capsules(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
                             const GripResult& result);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A double that counts what is done with it: core/ compiled with it as its Real (core_counted) tells how many floating-point operations
+// A double that counts what is done with it: core/ compiled with it as its Real (core_counted) counts how many floating-point operations
 // a kernel takes. Values and branches are those of double, to the bit; the test Counted.* holds it to that.
 //
 // Operations count as the source asks for them, in the thread that does them. The compiler of the product may do fewer: it folds constants
@@ -27,7 +27,7 @@ struct OperationCounts {
   bool operator==(const OperationCounts&) const = default;
 };
 
-// Of this thread, so far.
+// Operations of this thread so far.
 inline constinit thread_local OperationCounts operations_so_far{};
 
 // Trivial as double is, so that it fits into unions of glm and is not initialized where a double would not be.

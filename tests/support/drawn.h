@@ -20,7 +20,7 @@ struct DrawnAxes {
   }
 };
 
-// Of all plots in their order.
+// The axes of all plots, in their order.
 inline std::vector<DrawnAxes> drawn_axes(const std::string& svg) {
   static const std::regex axes("<clipPath[^>]*>\\s*<rect x=\"([^\"]+)\" y=\"([^\"]+)\" width=\"([^\"]+)\" height=\"([^\"]+)\"");
   std::vector<DrawnAxes> found;

@@ -22,7 +22,7 @@ inline std::string extreme_folder() { return std::string(WHOLEHAND_SOURCE_DIR) +
 
 inline Scene extreme_scene(const std::string& name) { return read_scene_file(extreme_folder() + name + ".toml"); }
 
-// Of all that are there, sorted.
+// Names of all extreme scenes, sorted.
 inline std::vector<std::string> extreme_names() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(extreme_folder())) names.push_back(entry.path().stem());

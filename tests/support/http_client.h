@@ -70,7 +70,7 @@ class HttpSocket {
     }
     return std::exchange(received_, "");
   }
-  // Status and headers; the body where its length is said.
+  // Status and headers; the body where its length is given.
   HttpReply read_reply() {
     HttpReply reply;
     const std::string head = read_until("\r\n\r\n");

@@ -6,7 +6,7 @@
 
 namespace wholehand {
 
-// Of a loop that lanes leave one by one: the useful ones, and all.
+// Turns of a loop that lanes leave one by one: the useful ones, and all.
 struct LaneCounts {
   std::uint32_t useful = 0, all = 0;
   bool operator==(const LaneCounts&) const = default;

@@ -12,7 +12,7 @@ namespace {
 // A row's inputs count as known to so many roundings of the largest in their column: the longest leaf function rounds an input in a
 // sum of that column's size no more than this often on its way through (a finger's tip: base, three segments, radius).
 constexpr double BACKWARD = 4;
-// Of the scale of what comes out. A finger's chain is the longest sum: three segments with an angle, its sine and cosine (2 units
+// Roundings of an output's scale. A finger's chain is the longest sum: three segments with an angle, its sine and cosine (2 units
 // each, shaders/trig.glsl), two products and three sums each, at 1 unit; Vulkan's division and root add up to 3 units each.
 constexpr double FORWARD = 32;
 // A tolerance that lets anything pass tests nothing: in float, nine of ten stay under this share of their scale.

@@ -10,7 +10,7 @@
 
 namespace wholehand {
 
-// The default scene's first beaker, half full, where a target stands in which it pours; a device whose gap is the hand's own.
+// The default scene's first beaker, half full, with a target into which it pours; a device whose gap is the hand's own.
 Scene live_scene();
 // Closed and open gap of a hand, m: a device with this range has the slope 1.
 std::array<double, 2> own_gap(const HandData& hand);

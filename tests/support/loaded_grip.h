@@ -25,7 +25,7 @@ struct LoadedGrip {
   std::size_t fills() const { return counted.size(); }
 };
 
-// Of a scene with [strength]; `result` is that of the grip, which is feasible.
+// The scene has [strength]; `result` is that of the grip, which is feasible.
 LoadedGrip held_grip(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
                      const GripResult& result);
 

@@ -21,7 +21,7 @@ inline const std::atomic<bool> NEVER_STOPPED{false};
 inline bool same_force(const GripperForce& a, const GripperForce& b) { return a.arm == b.arm && a.grip == b.grip; }
 inline bool is_zero(const GripperForce& force) { return same_force(force, {}); }
 
-// A gripper that does what it is told: the state of a tick by a function, and faults where they are wanted.
+// A scripted gripper: the state of a tick by a function, and faults where they are wanted.
 class ScriptedGripper : public Gripper {
  public:
   ScriptedGripper() {
@@ -108,7 +108,7 @@ struct LoopRig {
   }
 };
 
-// What every fault must end in: no force in the tick of the fault, nothing after it, the fault told with the state released; and
+// What every fault must end in: no force in the tick of the fault, nothing after it, the fault reported with the state released; and
 // force before, or the test would not see it go.
 inline void expect_released(const LoopRig& run, const LoopReport& report, Fault fault, std::int64_t tick) {
   ASSERT_GE(run.gripper.written.size(), 2u);

@@ -67,8 +67,8 @@ struct MockSettings {
   double period = 2e-3;          // between measurements, s
   std::uint32_t first_time = 0;  // of the device's clock, us
   std::uint8_t version = protocol::VERSION;
-  // Its clock goes on by this, s, with each output that it takes, and by 1 us with each measurement: no watchdog trips where a busy machine
-  // stands still. 0: by the machine's clock.
+  // The device's clock goes on by `step`, s, with each output that it takes, and by 1 us with each measurement: no watchdog trips where a
+  // busy machine stalls. 0: the machine's clock.
   double step = 2e-3;
   bool keeps_watchdog = false;  // does not take another period
   bool is_gripper = true;       // false: something else, by its descriptors

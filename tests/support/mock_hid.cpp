@@ -67,7 +67,7 @@ void HidMock::unplug() {
   umockdev_testbed_remove_device(bench_.testbed(), path_.c_str());
 }
 
-// That of something else differs in the last byte of its usage.
+// The report descriptor. A device that is no gripper has another last byte of its usage.
 HidMock::Bytes HidMock::descriptor() const {
   Bytes bytes(protocol::report_descriptor().begin(), protocol::report_descriptor().end());
   if (!is_gripper_) ++bytes[5];

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint8_t ENDPOINT_IN = 0x81, ENDPOINT_OUT = 0x01;
 
-// Descriptors; that of the interface, between configuration and endpoints, tells what the device is.
+// Descriptors; that of the interface, between configuration and endpoints, says what the device is.
 constexpr std::uint8_t DEVICE[]{18, 1, 0x00, 0x02, 0, 0, 0, 64, 0x55, 0xF0, 0x48, 0x57, 0x00, 0x01, 0, 0, 0, 1};
 constexpr std::uint8_t CONFIGURATION[]{9, 2, 32, 0, 1, 1, 0, 0x80, 50};
 constexpr std::uint8_t ENDPOINTS[]{7, 5, ENDPOINT_IN, 3, 64, 0, 1, 7, 5, ENDPOINT_OUT, 3, 64, 0, 1};

@@ -80,7 +80,7 @@ class OscPeer {
 
 inline int port_of(const std::string& address) { return std::stoi(address.substr(address.rfind(':') + 1)); }
 
-// An open gripper to which a peer has said `words`, at a port of its own.
+// An open gripper to which a peer has sent `words`, at a port of its own.
 inline std::unique_ptr<Gripper> open_said(const Scene& scene, const OscPeer& peer, const std::vector<std::string>& words,
                                           double patience = 10) {
   return open_osc(

@@ -17,7 +17,7 @@ namespace {
 
 std::string key(const char* name, double value) { return fmt::format("{} = {:.9g}\n", name, value); }
 
-// So many numbers of a range, ascending, each once.
+// `count` distinct numbers of a range, ascending.
 std::string ascending(SceneDraw& draw, int count, double low, double high) {
   std::set<double> values;
   while (static_cast<int>(values.size()) < count)

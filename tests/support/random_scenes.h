@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes of every kind that a scene file can describe, drawn by chance: what nobody thought of.
+// Random scenes of every kind that a scene file can describe, for unforeseen combinations.
 #pragma once
 
 #include <cstdint>

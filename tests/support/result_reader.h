@@ -9,7 +9,7 @@ namespace wholehand {
 
 // All values of a variable in the file's order. Adds a test failure and returns nothing where it cannot be read.
 std::vector<double> read_values(const std::string& file, const std::string& variable);
-// Those of a variable of strings.
+// The values of a variable of strings.
 std::vector<std::string> read_strings(const std::string& file, const std::string& variable);
 // The raw text of an attribute; `variable` empty: of the file.
 std::string read_text(const std::string& file, const std::string& variable, const std::string& attribute);

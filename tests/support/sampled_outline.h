@@ -16,7 +16,7 @@ using core_f64::Vec2;
 using core_f64::Vec3;
 
 constexpr int OUTLINE_SAMPLES = 100000;
-constexpr int FEWER_SAMPLES = 10000;  // where many distances are asked for: the search on the curve makes up for it
+constexpr int FEWER_SAMPLES = 10000;  // for many distances: the search on the curve makes up for it
 
 // One element of an outline as a curve over [0, 1], from the scene's own data.
 struct Piece {

@@ -99,7 +99,7 @@ inline int exit_of(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-// The list beside a result without what each row ends with: the names of the result and of the sweep, which tell the backend.
+// The list beside a result without what each row ends with: the names of the result and of the sweep, which reveal the backend.
 inline std::string list_beside(const std::string& result) {
   std::istringstream rows(file_text(output_names(result).best));
   std::string text;

@@ -38,7 +38,7 @@ class BestGlbTest : public testing::Test {
   fs::path folder;
 };
 
-// The height that the file's extras tell, m.
+// The height in the file's extras, m.
 double height_in(const fs::path& path) {
   tinygltf::Model model;
   std::string error, warning;

@@ -47,7 +47,7 @@ TEST(BeyondWrist, NoListHasAHandThatNoArmReaches) {
     EXPECT_EQ(scores[i], 0);
   }
   EXPECT_GT(count, beyond.size() / 4);
-  // the same grips stand in both files
+  // both files have the same grips
   EXPECT_EQ(beyond[bare.result->best(0).front().index], 1) << "without an arm the first hand is one that nobody has";
   const auto best = swept.result->best(0);
   ASSERT_EQ(best.size(), 10u);

@@ -203,7 +203,7 @@ TEST(Explain, SaysWhatRobustScoresCost) {
                  "deviations of 320 candidates and the rest for the 14 listed cost at least ([0-9.e-]+) s of processor "
                  "time a sweep; all would cost ([0-9.e-]+) s\n")))
       << text;
-  // to the digits that are told
+  // to the printed digits
   const double each = 1e-6 * std::stod(match[1]), least = std::stod(match[2]), all = std::stod(match[3]);
   EXPECT_GT(each, 0);
   EXPECT_NEAR(least, (3 * 320 + 21 * 14) * each, 0.01 * least) << text;

@@ -61,8 +61,8 @@ TEST(GuardedFile, GivesWhatTheLibraryGives) {
       << "a place that is not there";
 }
 
-// The library's strings and references lie in its global heap; lengths there it believes, and crashes or never ends. A huge one is
-// put so many bytes into it.
+// The library's strings and references lie in its global heap; it trusts lengths there, and crashes or never ends. Writes a huge one
+// `at` bytes into it.
 void write_damaged_heap(const std::string& path, std::size_t at) {
   std::string damaged = small_result();
   const std::size_t heap = damaged.find("GCOL");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Notes on what a scene asks for and what changes nothing: said in each such scene, and in no other.
+// Notes on what a scene asks for and what changes nothing: printed for each such scene, and for no other.
 // sanitizers: address
 #include "sweeps/idle_notes.h"
 

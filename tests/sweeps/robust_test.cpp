@@ -348,7 +348,7 @@ std::vector<std::vector<BestGrip>> all_by_score(const Scene& scene, const Plan& 
   return lists;
 }
 
-// What is passed by changes no list.
+// Skipped deviations change no list.
 TEST(Robust, ListsAreThoseOfAllDeviationsOfAllCandidates) {
   for (const double friction : {0.0, 0.2}) {
     Scene scene = broad_scene();
@@ -370,7 +370,7 @@ TEST(Robust, ListsAreThoseOfAllDeviationsOfAllCandidates) {
       list.resize(std::min(list.size(), judged_grips(BEST)));
       ASSERT_GT(list.size(), ROBUST_CANDIDATES * BEST);
       all += list.size() * static_cast<std::size_t>(scene.robust->count);
-      // each candidate alone: nothing to be compared with, so nothing is passed by
+      // each candidate alone: nothing to be compared with, so nothing is skipped
       for (BestGrip& grip : list) {
         std::vector<std::vector<BestGrip>> alone(whole.size());
         alone[v] = {grip};

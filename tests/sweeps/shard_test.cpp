@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shards: told from each other and from files of others.
+// Shards: distinguished from each other and from foreign files.
 #include "sweeps/shard.h"
 
 #include <gtest/gtest.h>

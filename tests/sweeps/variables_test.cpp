@@ -226,7 +226,7 @@ TEST(Variables, WordsAreTakenApart) {
   EXPECT_EQ(value("projected_inner", 0x101), 2);
 }
 
-// Of a scene that leaves out none, every comment is as it stands in the catalogue.
+// Where a scene leaves out no tilt, every comment is the catalogue's.
 TEST(Variables, CommentsTellWhichTiltsAreLeftOut) {
   Scene scene = fake_scene();
   for (const Variable& variable : variable_catalogue()) EXPECT_EQ(variable_comment(variable, scene), variable.comment);

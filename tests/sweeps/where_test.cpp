@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conditions on grips: what they mean, and where the wrong ones are told to be wrong.
+// Conditions on grips: what they mean, and where the errors of wrong ones point.
 // sanitizers: address
 #include "sweeps/where.h"
 

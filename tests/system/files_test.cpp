@@ -82,7 +82,7 @@ TEST(Files, AFolderInOneThatMayNotBeLookedIntoIsAFailure) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "locked/parent");
   std::filesystem::permissions(folder / "locked", std::filesystem::perms::none);
-  const bool is_root = geteuid() == 0;  // who may look anywhere
+  const bool is_root = geteuid() == 0;  // root may read anywhere
   if (is_root && seteuid(65534) != 0) GTEST_SKIP() << "root cannot become another user here";
   const std::string path = folder / "locked/parent/new", line = refusal_line([&] { make_output_folder(path); }, ExitCode::failure);
   if (is_root) {

@@ -68,7 +68,7 @@ TEST(OutputLock, TheSecondIsRefusedWithWhoHoldsIt) {
   EXPECT_FALSE(file_exists(path));
 }
 
-// A number of a process is told with the machine that has it: here it may be another process's.
+// The message names a process by number and machine: on this machine the number may be another process's.
 TEST(OutputLock, WhoHoldsItOnAnotherMachineIsNamedWithIt) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.lock";
@@ -116,7 +116,7 @@ TEST(OutputLock, WhatIsNoLockStays) {
   EXPECT_THROW(OutputLock(folder / "missing/a.lock"), Error);
 }
 
-// Who waits may get a lock on the file that the one before has just removed, while a third makes a new one: never are there two.
+// A waiting process may lock the file that its holder has just removed, while a third makes a new one: there are never two holders.
 TEST(OutputLock, NeverTwoAtOnceHoweverTheyComeAndGo) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.lock", witness = folder / "held";

@@ -108,7 +108,7 @@ TEST(HoldingLaw, TwoTipsHoldATorsionFromTheFormulaOn) {
   EXPECT_GT(pinch(two_tips(0), 0.98 * needed, center, weight).turned, radians(0.8));
 }
 
-// Of a contact set as the engine holds it, where it holds it.
+// A contact set at rest in the engine, where the engine holds it.
 struct Held {
   bool is_static = false;
   double unbalanced = 0;  // of load and contact forces, as a share of the load

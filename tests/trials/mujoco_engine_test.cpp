@@ -65,7 +65,7 @@ std::string usage_of(const TrialEngine& engine, std::size_t vessel) {
   return "none";
 }
 
-// Grips of three_beakers whose trials once said other than their efforts (docs/trials-model.md).
+// Grips of three_beakers whose trials once contradicted their efforts (docs/trials-model.md).
 struct Grasped {
   std::size_t vessel;
   GripInput grip;

@@ -121,7 +121,7 @@ TEST(Mujoco, NoContactIsDropped) {
   EXPECT_THROW(held_by_four(options), EngineTrouble);
 }
 
-// To leave out what is far away changes nothing, however fast it comes: what touches is what touches if all pairs are looked at.
+// Leaving out distant pairs changes nothing, however fast they approach: the contacts are those of a check of all pairs.
 // The body flies at a ball which it is 40 mm away from; at 5 m/s it passes NEAR in half a step.
 TEST(Mujoco, WhatComesFastIsSeenInTime) {
   core_f64::HandStrength hand{0.6, 5e-3, {}};

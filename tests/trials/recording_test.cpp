@@ -23,7 +23,7 @@ namespace {
 
 constexpr double SAME_PLACE = 1e-12;  // m
 
-// The shipped scene, whose vessels stand in each other.
+// The shipped scene, whose vessels overlap.
 Scene shipped_beakers() { return read_scene_file(std::string(WHOLEHAND_SOURCE_DIR) + "/scene/examples/three_beakers.toml"); }
 
 TrialGrip grip_of_flask() {

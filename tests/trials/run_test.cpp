@@ -284,7 +284,7 @@ TEST_F(TrialsTest, WithoutResumeItBeginsAgainAndSaysSo) {
   EXPECT_TRUE(has(ran.notes, "are begun again")) << ran.notes;
 }
 
-// Its word that a diverged trial was held is not taken.
+// A diverged trial does not count as held, whatever the engine says.
 TEST_F(TrialsTest, DivergedTrialsAreCountedAndNeverHeld) {
   const TrialsRun ran = run(open_fake_engine([](FakeTrialEngine& engine) { engine.discarded = 0.5; }));
   ASSERT_EQ(ran.code, ExitCode::done) << ran.error;
@@ -562,7 +562,7 @@ TEST(TrialJournalFile, KeepsNumbersToTheBit) {
   expect_same(read.outcomes[0].turn, outcome.turn);
   EXPECT_EQ(read.outcomes[0].reason, outcome.reason);
   EXPECT_EQ(read.outcomes[0].detail, outcome.detail);
-  // of a grip that has another number of cases, and beyond the last grip
+  // a grip with another number of cases, and one beyond the last grip
   found.clear();
   TrialJournal(path, identity, {1, 2}, found, damaged);
   EXPECT_EQ(damaged, 1u);

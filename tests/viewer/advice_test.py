@@ -3,8 +3,8 @@
 
 from support import PATIENCE, Served, ViewerTest, main, patient_board
 
-# The first frame in which a better grip is shown and told, and what the page shows with it. A page that comes late may first see a
-# held vessel, of which the words are about tilts
+# The first frame with a better grip in picture and words, and what the page shows with it. A page that comes late may first see a
+# held vessel, whose words are about tilts
 WATCH = """(() => {
   const look = () => {
     const {frame, view} = window.wholehand || {};

@@ -17,7 +17,7 @@
 namespace wholehand {
 namespace {
 
-// A hand that is told to go elsewhere: the last tick before a grasp that is too high.
+// A hand that is advised to go elsewhere: the last tick before a grasp that is too high.
 struct Advised {
   Advised() : scene(advised_session_scene()), live(scene) {
     LiveScript script = script_for(scene);
@@ -100,7 +100,7 @@ TEST(OscStream, SendsTheAdvice) {
   const OscMessage& wrist = messages.at("/wholehand/advice/joint/XR_HAND_JOINT_WRIST_EXT");
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(number(wrist, k), static_cast<float>(ghost->wrist.place[k]));
   EXPECT_EQ(messages.size(), 5u + 25u);
-  // no vessel is near: nothing is advised, and that is said
+  // no vessel is near: the messages say that there is no advice
   messages = sent(std::make_unique<Advice>().get());
   EXPECT_EQ(messages.size(), 3u);
   EXPECT_EQ(whole(messages.at("/wholehand/advice/vessel")), -1);

@@ -52,7 +52,7 @@ TEST(ViewControl, TakesWhatAPagePosts) {
   EXPECT_EQ(parse_view_control(with("buttons", 4294967295)).buttons, 4294967295u);
 }
 
-// To single precision, as a page has it, and to what is just allowed: the guard takes what comes out.
+// Rotations in single precision, as a page has them, and ones that are just allowed become exact: the guard takes the result.
 TEST(ViewControl, MakesRotationsExact) {
   for (const double error : {1e-7, 1e-3, 3e-3}) {
     Rotation skewed = product(turned('z', 1.1), turned('x', -2));

@@ -120,7 +120,7 @@ TEST(DisplayLoop, TellsMissedPeriodsAndTheLongestStepSinceTheMomentBefore) {
   EXPECT_EQ(keeper.timings[1].rate, live.scene.live.rate) << "none missed since";
 }
 
-// Once there is no advice any more, displays are told so: what they showed of it before is to go.
+// Once there is no advice any more, displays get that too, so that they remove the advice shown before.
 TEST(DisplayLoop, TellsWhereThereIsNoAdvice) {
   const LiveScene live(live_scene());
   const auto advised = [&](const AdviceSource& source) {

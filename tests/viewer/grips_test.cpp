@@ -166,7 +166,7 @@ TEST(GripsView, TheScoreOfAListIsShown) {
   EXPECT_NEAR(shown[0]["score"].get<double>(), own, 1e-12);
 }
 
-// Told, and not shown: the frame stays that of the swept grip.
+// In words only: the frame stays that of the swept grip.
 TEST(GripsView, TheRefinedGripIsToldBesideTheSweptOne) {
   std::vector<std::string> notes;
   std::vector<ViewedGrip> grips = some_grips();
@@ -236,7 +236,7 @@ TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
   }
 }
 
-// As high as it stands in the scene: a hand that reaches under its base is under the table.
+// As high as it is in the scene: a hand that reaches under its base is under the table.
 TEST(GripsView, AVesselStandsOnItsOwnTableWhereverTheHandIs) {
   Scene scene = beakers();
   scene.vessels[0].place = {0.1, 0.3, -0.2};

@@ -123,7 +123,7 @@ class AGrip(ViewerTest):
             x, y, z = joints[INDEX_TIP]
             page.evaluate(f"wholehand.view.orbit.go({{elevation: {elevation}, x: {x}, y: {y}, z: {z}}}), wholehand.view.orbit.jump(), wholehand.view.stage.invalidate()")
             hand, table, through, neither = (color(joints, *which) for which in [(True, False), (False, True), (True, True), (False, False)])
-            # of a quarter of the hand over the table, or of half of the table over all
+            # a quarter of the hand over the table, or half of the table over all
             expected = [t + 0.25 * (h - t) for t, h in zip(table, hand)] if down else [t + 0.5 * (h - n) for t, h, n in zip(table, hand, neither)]
             self.assert_near(through, expected, 4, f"hand {hand}, table {table}, at {elevation}")
             for what, other in [("the hand is seen", table), ("the table is before it", hand)]:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The viewer's server against a browser of our own: what is there and who gets in. With viewer/local_server and
+// The viewer's server against a browser of our own: what is there and which requests get in. With viewer/local_server and
 // viewer/http_connection, which it is made of.
 // sanitizers: address thread
 #include "viewer/server.h"
@@ -87,7 +87,7 @@ TEST(ViewServer, OneConnectionTakesManyRequests) {
   EXPECT_EQ(socket.read_all(), "") << "closed, as it was asked";
 }
 
-// ---- who gets in ----
+// ---- which requests get in ----
 
 TEST(ViewServer, WithoutTheTokenNothingIsThere) {
   const ServedView served;

@@ -60,7 +60,7 @@ class Served:
 class ViewerTest(unittest.TestCase):
     """One browser and a folder for all tests of a class."""
 
-    # Device pixels a CSS pixel. Pictures are drawn in software: where no test looks at one, half as many a side cost a quarter.
+    # Device pixels a CSS pixel. Pictures are drawn in software: where no test checks one, half as many a side cost a quarter.
     scale = 1
 
     @classmethod
@@ -106,7 +106,7 @@ def drawn(page):
 
 
 def color_at(page, x, y):
-    """Of the page where CSS pixel x, y is."""
+    """Colour of the page at CSS pixel x, y."""
     return Picture(page.picture(int(x), int(y))).color(0, 0)
 
 

@@ -66,7 +66,7 @@ export class Charts {
     const seen = this.records.filter((r) => r.x >= x0 - 0.1 && r.x <= x1 + 1e-9);
     const scales = this.rows.map((row) => this.scaleOf(row, seen, inner * row.share / whole));
     const wide = (texts) => Math.ceil(Math.max(...texts.map((text) => pen.measureText(text).width)));
-    // the numbers' room on the left; the names' on the right, and half of what stands under the right end
+    // the numbers' room on the left; the names' on the right, and half of what is under the right end
     const left = Math.max(wide(scales.flatMap(({ticks}) => ticks.map(tickText))) + TICK, wide(['−10']) / 2) + 1;
     const right = width - 1 - Math.max(wide(this.rows.flatMap((row) => row.lines.map((line) => line.name))) + NAME, wide([this.footText(0, x1)]) / 2);
     const toX = (x) => left + (x - x0) / (x1 - x0 || 1) * (right - left);
@@ -154,7 +154,7 @@ export class Charts {
     }
   }
 
-  // Under a line that is `k` from the end: seconds before it, or degrees.
+  // The label under a line that is `k` from the end: seconds before it, or degrees.
   footText(k, end) {
     if (this.overTilt) return `${k}°`;
     return k > 0 ? `−${k}` : this.live ? 'now' : `${end.toFixed(1)} s`;

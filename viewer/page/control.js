@@ -12,7 +12,7 @@ const HELD = ['lift', 'tilt', 'maintain'];
 const THUMB_TIP = 3, INDEX_TIP = 8;
 const LARGEST_TILT = 150, LARGEST_TURN = 180;  // degrees
 
-// Of the gripper's axes, [x, y, z, w], as Control.state() puts them together, rad. What else they may be turned by is left out.
+// Tilt and turn of the gripper's axes, [x, y, z, w], as Control.state() composes them, rad. Any other rotation is left out.
 function angles(rotation) {
   const turned = (x, y, z) => new Vector3(x, y, z).applyQuaternion(new Quaternion(...rotation));
   const across = turned(1, 0, 0), up = turned(0, 1, 0), back = turned(0, 0, 1);
@@ -141,7 +141,7 @@ export class Control {
     requestAnimationFrame(() => this.step());
   }
 
-  // What a frame tells the controls.
+  // Updates the controls from a frame.
   show(frame) {
     if (!this.isAtHand) {  // another page may have moved it
       this.isAtHand = true;
@@ -152,7 +152,7 @@ export class Control {
     this.isHeld = HELD.includes(frame.state);
     if (this.isHeld && this.motion < 0) {
       this.motion = 0;
-      const stiffness = this.limits.opening_N_m;  // it has closed on since it held, by as much as the force that opens it tells
+      const stiffness = this.limits.opening_N_m;  // it has closed on since it held, by what follows from the force that opens it
       const way = stiffness > 0 ? Math.max(0, frame.forces.opening) / stiffness : 0;
       this.gap = Math.max(this.limits.gap[0], frame.gap + way - SQUEEZE);
       this.changed();

@@ -58,7 +58,7 @@ export class Grips {
     document.getElementById('grips-panel').hidden = false;
   }
 
-  // Whether any grip of the list has one; looked for once in each list.
+  // Whether any grip of the list has one; checked once for each list.
   has(key) {
     if (this.lookedAt !== this.about) {
       this.lookedAt = this.about;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The hand's surface: balls about the joints, the rounded cones between them that touch both balls, and the skin of the palm over the
-// balls in it. All of it is written once in terms of which balls a vertex belongs to; where the balls are is told to the shader, so
+// balls in it. All of it is written once in terms of which balls a vertex belongs to; the shader gets where the balls are, so
 // that a moving hand costs a few numbers a picture.
 import {BufferGeometry, Float32BufferAttribute} from './three.module.js';
 

@@ -68,7 +68,7 @@ export class Orbit {
     this.changed();
   }
 
-  // By so many pixels of the screen.
+  // Moves the view by pixels of the screen.
   pan(dx, dy) {
     const [right, up] = this.axes(), size = this.pixel();
     this.isHome = false;
@@ -84,7 +84,7 @@ export class Orbit {
     return [new Vector3(e[0], e[1], e[2]), new Vector3(e[4], e[5], e[6])];
   }
 
-  // Length of a pixel at the point that is looked at, or at a distance from the eye, m.
+  // Length of a pixel at the point of view's target, or at a distance from the eye, m.
   pixel(distance = this.now.distance) {
     return 2 * distance * Math.tan(this.camera.fov * Math.PI / 360) / Math.max(1, this.element.clientHeight);
   }

@@ -20,7 +20,7 @@ export function mark(contact) {
   return svg;
 }
 
-// A bar from 0 to `most`; its parts are told in CSS.
+// A bar from 0 to `most`; CSS styles its parts.
 function meter(label, most, unit) {
   const fill = element('span', {class: 'fill'}), value = element('output', {});
   const row = element('div', {class: 'meter'}, element('span', {class: 'name', text: label}),

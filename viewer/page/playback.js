@@ -31,10 +31,10 @@ export class Playback {
     this.recording.overview().then((frames) => {
       this.frames = frames;
       this.drawStates();
-    }, () => {});  // without it the strip is empty; the stretches tell of trouble
+    }, () => {});  // without it the strip is empty; the stretches report trouble
   }
 
-  // Each state is a band, told apart by its height as well as by its colour.
+  // Each state is a band with its own height and colour.
   drawStates() {
     const {timeline, frames} = this, scale = devicePixelRatio || 1, width = timeline.clientWidth, height = timeline.clientHeight;
     if (!frames || !width) return;
@@ -83,7 +83,7 @@ export class Playback {
     const t = Math.min(this.recording.duration, this.t + (this.last === null ? 0 : Math.min(0.25, now - this.last) * this.speed));
     this.last = now;
     const frame = this.recording.now(t);
-    if (!frame) {  // time stands still while a stretch is on its way
+    if (!frame) {  // time stops while a stretch is on its way
       this.recording.at(t).then(() => this.goOn(run), (error) => {
         if (run !== this.runs) return;
         this.pause();

@@ -114,7 +114,7 @@ export class Recording {
     return Math.floor(Math.max(0, Math.min(t, this.duration - 1e-9)) / STRETCH);
   }
 
-  // Once for each: trouble is told when it is that stretch's turn.
+  // Once for each stretch: trouble is reported when it is that stretch's turn.
   ahead(number) {
     if (this.aheadOf === number) return;
     this.aheadOf = number;

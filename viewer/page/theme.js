@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the reader's system asks for, and every colour. Contact states and lines are told apart by hue and lightness as Okabe and Ito chose
+// What the reader's system asks for, and every colour. Contact states and lines differ in hue and lightness as Okabe and Ito chose
 // them for all kinds of colour vision, and by a shape or a dash beside it.
 
 export const darkMode = matchMedia('(prefers-color-scheme: dark)');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame as a picture: puts hand, marks, vessels, liquids and stream where a frame says, and looks at them.
+// A frame as a picture: puts hand, marks, vessels, liquids and stream where a frame says, and aims the camera.
 import * as THREE from './three.module.js';
 import {Arrows} from './arrows.js';
 import {Hand} from './hand.js';
@@ -68,7 +68,7 @@ export class View {
     this.stage.invalidate();
   }
 
-  // Of the vessel that is held, or of each; the nearest is the one that matters.
+  // The guided place on the vessel that is held, else on the nearest one.
   guidancePlace(frame) {
     if (frame.guidance < 0) return null;
     const near = frame.vessel >= 0 ? this.vessels.list[frame.vessel] : this.vessels.nearest(frame.joints);
@@ -91,7 +91,7 @@ export class View {
     return goesOn;
   }
 
-  // What the home view has to show: of a scene all that stands in it; of a grip the glass and the hand about the pivot, whatever the tilt.
+  // The home view shows all vessels and targets of a scene; of a grip the glass and the hand about the pivot, whatever the tilt.
   frameHome() {
     const {about, frame} = this, points = [];
     const ring = ([x, y, z], radius) => {
