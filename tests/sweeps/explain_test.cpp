@@ -200,7 +200,7 @@ TEST(Explain, SaysWhatRobustScoresCost) {
   ASSERT_TRUE(std::regex_search(
       text, match,
       std::regex("not left out: the robust scores by the core, ([0-9.]+) us for each deviation. An eighth of 24 "
-                 "deviations of 320 candidates and the rest for the 14 listed cost at least ([0-9.e-]+) s of processor "
+                 "deviations of 320 candidates and the rest for the 14 listed cost about ([0-9.e-]+) s of processor "
                  "time a sweep; all would cost ([0-9.e-]+) s\n")))
       << text;
   // to the printed digits
