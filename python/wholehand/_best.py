@@ -206,7 +206,7 @@ def best(
     needed = ["reason", "plausible", by, *(["not_held"] if scene._core.has_effort else []), *(["worst_effort"] if least_bad else [])]
     missing = [f"'{name}'" for name in needed if isinstance(name, str) and name not in data]
     if missing:
-        raise Error(f"best: the dataset lacks {', '.join(missing)}, by which grips are chosen: keep all of these in the sweep")
+        raise Error(f"best: the dataset lacks {', '.join(missing)}, by which grips are chosen: name them in [output] also, or in its keep, and sweep again")
     data = _with_vessels(data)
     if not data.sizes["vessel"]:
         raise Error("best: the dataset has no vessel left")

@@ -77,7 +77,8 @@ class Best(InFolder):
             data.close()
 
     def test_it_ranks_as_the_program_does(self):
-        data = self.data_of(SEVERAL + "[robust]\nheight_mm = 3\nroll_deg = 5\ncount = 8\n")
+        pushed = SEVERAL.replace("[output]", '[output]\nalso = ["push"]')
+        data = self.data_of(pushed + "[robust]\nheight_mm = 3\nroll_deg = 5\ncount = 8\n")
         self.same(wh.best(data, n=4), self.ranked("--best", 4))
         self.same(wh.best(data, n=4, by="robust"), self.ranked("--best", 4, "--rank-by", "robust"))
         for by in ("score", "worst_effort", "push"):
@@ -86,6 +87,7 @@ class Best(InFolder):
         data.close()
         without = self.data_of(SEVERAL)
         self.assertIn("no [robust]", str(self.refused(wh.best, without, by="robust")))
+        self.assertIn("lacks 'push', by which grips are chosen: name them in [output] also", str(self.refused(wh.best, without, by="push")))
 
     def test_where_vectors_are_kept_azimuths_count(self):
         data = self.data_of(SEVERAL.replace("[output]", '[output]\nalso = ["midpoint"]'))

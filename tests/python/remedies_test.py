@@ -24,7 +24,7 @@ class Remedies(InFolder):
 
         for words, refused, followed in [
             ("give one of wh.sweep", lambda: wh.best(data.score.to_dataset()), lambda: wh.best(data)),
-            ("lacks 'reason', 'plausible', 'score', 'not_held', by which grips are chosen: keep all of these", lambda: wh.best(kept("gap")),
+            ("lacks 'reason', 'plausible', 'score', 'not_held', by which grips are chosen: name them in [output] also", lambda: wh.best(kept("gap")),
              lambda: wh.best(kept("gap", "reason", "plausible", "score", "not_held"))),
             ("reduce it, say with .max('fill')", lambda: wh.best(data, by=by_fill(data)),
              lambda: wh.best(data, by=by_fill(data).max("fill"))),
