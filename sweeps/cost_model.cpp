@@ -7,6 +7,8 @@
 #include <bit>
 
 #include "core/planes.h"
+#include "shaders/layout.h"
+#include "sweeps/variables.h"
 
 namespace wholehand {
 namespace {
@@ -19,9 +21,9 @@ constexpr std::uint64_t FEW_GRIPS = 8;  // a run of fewer than the sweep's by th
 struct Guess {
   double fixed, compiling, grip;
 };
-constexpr Guess CORE{0.1, 0, 15e-6}, CORE_WITH_EFFORTS{0.2, 0, 185e-6};
-constexpr Guess CPU_DRIVER{0.3, 5.4, 4e-6}, CPU_DRIVER_WITH_EFFORTS{0.7, 9, 100e-6};
-constexpr Guess GPU{0.7, 0, 0.3e-6}, GPU_WITH_EFFORTS{0.7, 0, 3.7e-6};  // not measured: a fiftieth of one thread
+constexpr Guess CORE{0.1, 0, 15e-6}, CORE_WITH_EFFORTS{0.2, 0, 61e-6};
+constexpr Guess CPU_DRIVER{0.3, 5.4, 4e-6}, CPU_DRIVER_WITH_EFFORTS{0.7, 7.5, 33e-6};
+constexpr Guess GPU{0.7, 0, 0.3e-6}, GPU_WITH_EFFORTS{0.7, 0, 1.2e-6};  // not measured: a fiftieth of one thread
 
 CostEstimate guessed(const Guess& guess, int threads, bool compiles) {
   CostEstimate made;
@@ -75,6 +77,9 @@ SweepTask sweep_task(const Scene& scene, std::uint64_t grips, int threads, const
   SweepTask task;
   task.grips = grips;
   task.has_efforts = has_effort(scene);
+  for (const Variable* variable : choose_variables(scene))
+    task.has_reserves |=
+        variable->field == FIELD_TIPS_WORST_EFFORT || variable->field == FIELD_PUSH || variable->field == FIELD_FRICTION_NEEDED;
   task.has_mesh = std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& v) { return v.mesh.has_value(); });
   task.is_robust = scene.robust.has_value();
   task.between = scene.hand.between;
@@ -85,7 +90,10 @@ SweepTask sweep_task(const Scene& scene, std::uint64_t grips, int threads, const
 }
 
 std::string kind_of(const SweepTask& task) {
-  return fmt::format("{}, {}, {}{} between, 2^{} states, {} threads, {}", task.has_efforts ? "efforts" : "no efforts",
+  return fmt::format("{}, {}, {}{} between, 2^{} states, {} threads, {}",
+                     task.has_reserves  ? "all efforts"
+                     : task.has_efforts ? "efforts"
+                                        : "no efforts",
                      task.has_mesh ? "mesh" : "outlines", task.is_robust ? "robust, " : "", task.between,
                      std::bit_width(task.states), task.threads, task.precision.empty() ? "usual precision" : task.precision);
 }

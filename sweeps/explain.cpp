@@ -327,17 +327,26 @@ class Explainer {
         unheld);
   }
 
-  // Share of the sample; of a sample without a plausible grip, as if one were.
-  double plausible_share() const {
-    const auto core = make_core_evaluator(scene_);
-    const std::size_t step = std::max<std::size_t>(1, sample_.size() / (8 * SEARCHED_GRIPS));
-    double grips = 0, plausible = 0;
-    for (std::size_t i = 0; i < sample_.size(); i += step, ++grips) {
+  // The core's time for one of some plausible grips of the sample, us; of any grips where none is plausible. Candidates are plausible, and so are
+  // nearly all of their deviations.
+  double plausible_grip() {
+    const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_);
+    if (is_counting_) return microseconds(measure(scene_, fields, OUTLINE_SPECIALIZED, true, Precision::full));
+    const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene_);
+    std::vector<GripInput> grips;
+    for (std::size_t i = 0; i < sample_.size() && grips.size() < 4 * SEARCHED_GRIPS; ++i) {
       GripResult result;
       core->grip(0, sample_[i], result);
-      plausible += result.reason == Reason::none && result.plausible ? 1 : 0;
+      if (result.reason == Reason::none && result.plausible) grips.push_back(sample_[i]);
     }
-    return std::max(1.0, plausible) / grips;
+    if (grips.empty()) grips = sample_;
+    RunRequest request;
+    request.last = grips.size();
+    request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
+      std::copy_n(grips.begin() + static_cast<std::ptrdiff_t>(first), count, out);
+    };
+    return CoreBackend(core, scene_, fields, Precision::full, 1).run(request).kernel_seconds * 1e6 /
+           static_cast<double>(grips.size());
   }
 
   // Once a sweep, whatever its grips: the listed ones, each with its deviations.
@@ -345,9 +354,7 @@ class Explainer {
     if (!scene_.robust || options_.best == 0) return;
     const std::size_t lists = scene_.vessels.size() * plan_.hand_scales(), count = static_cast<std::size_t>(scene_.robust->count);
     const std::size_t listed = lists * std::min(options_.best, MOST_ROBUST), judged = lists * judged_grips(options_.best);
-    const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_);
-    // candidates are plausible, and so are nearly all of their deviations, where other grips are soon done with
-    const double each = microseconds(measure(scene_, fields, OUTLINE_SPECIALIZED, true, Precision::full)) / plausible_share();
+    const double each = plausible_grip();
     // every candidate is judged at the first part of the deviations
     const double first = 1.0 / FRICTION_LEVELS;
     const auto cost = [&](double grips) { return grips * static_cast<double>(count) * each * 1e-6; };

@@ -574,7 +574,7 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
           "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
   } catch (const Error& error) {  // a mesh is not there
     if (!has_usual) throw;
-    ranking.note = fmt::format("{}; without it {} are left empty", error.what(), joined(missing, ", "));
+    ranking.note = fmt::format("{}; {} and the hold force are left empty", error.what(), joined(missing, ", "));
   }
   std::vector<std::vector<BestGrip>> places(lists);
   for (std::size_t list = 0; list < lists; ++list)

@@ -563,7 +563,7 @@ std::string Sweep::unheld(std::size_t v) const {
   if (!counts.none_holds() || !counts.least_bad.is_known()) return "";
   const std::shared_ptr<const Evaluator> core = parts_.open_evaluator();
   return fmt::format(
-      "{}{}", unheld_line(*core, scene_, plan(), v, counts.least_bad),
+      "{}{}", unheld_line(*core, scene_, plan(), v, with_least_friction(*core, scene_, plan(), v, counts.least_bad)),
       keeps_least_bad() ? fmt::format("; `wholehand rank {} --least-bad` lists such grips", one_line(names_.result)) : "");
 }
 
@@ -592,7 +592,7 @@ std::string Sweep::counts_text(std::size_t v) const {
 double Sweep::gate(std::size_t v) const { return gate_tolerance(scene_, facts_[v].empty_mass); }
 
 void Sweep::finish(ResultFile& file, BestLists best) {
-  describe_best(companions(), best);
+  if (has_usual_order()) describe_best(companions(), best);
   std::vector<std::vector<RankedGrip>> ranked(best.size());
   for (std::size_t list = 0; list < best.size(); ++list) {
     for (const BestGrip& grip : best[list])

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -69,6 +70,24 @@ Unheld what_would_hold(const Evaluator& core, const Scene& scene, std::size_t ve
   if (scene.liquid && held_fills > 0 && held_fills < fills) found.fill = vessel_fills(scene, scene.vessels[vessel])[held_fills - 1];
   if (held_tilts > 0 && held_tilts < tilts) found.tilt = scene.tilts[held_tilts - 1];
   return found;
+}
+
+LeastBad with_least_friction(const Evaluator& core, const Scene& scene, const Plan& plan, std::size_t vessel,
+                             const LeastBad& nearest) {
+  constexpr std::uint64_t FRICTION_GRIPS = 8192;
+  if (std::isfinite(nearest.effort) || std::isfinite(nearest.friction)) return nearest;
+  const std::uint64_t step = std::max<std::uint64_t>(1, plan.grips() / FRICTION_GRIPS);
+  std::vector<GripInput> grips;
+  for (std::uint64_t i = 0; i < plan.grips(); i += step) grips.push_back(plan.grip(vessel, i));
+  const FieldSet fields = make_field_set({FIELD_FRICTION_NEEDED, FIELD_STATUS}, scene);
+  const GatheredPlanes planes = gather(core, fields, vessel, grips);
+  LeastBad least = nearest;
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    if (!is_plausible(planes.uint(FIELD_STATUS, i))) continue;
+    const double friction = planes.real(fields.plane[FIELD_FRICTION_NEEDED], i);
+    if (friction < least.friction) least = {nearest.effort, friction, i * step};
+  }
+  return least;
 }
 
 std::string unheld_line(const Evaluator& core, const Scene& scene, const Plan& plan, std::size_t vessel, const LeastBad& nearest) {

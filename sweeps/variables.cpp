@@ -322,7 +322,7 @@ std::vector<const Variable*> choose_variables(const Scene& scene) {
     const char* lacking = missing_need(variable.need, scene);
     const bool is_named = wanted.erase(variable.name) > 0;
     if (is_named && lacking) throw lacking_error(where, variable.name, lacking);
-    // tips_worst_effort says it in the strength of the tips
+    // with efforts the lists have it from the effort of the tips
     const bool is_said = variable.field == FIELD_LARGEST_HOLD && has_effort(scene);
     if (is_named || (!output.keep && variable.by_default && !lacking && !is_said)) chosen.push_back(&variable);
   }

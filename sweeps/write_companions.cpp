@@ -11,7 +11,6 @@
 #include "sweeps/companions.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/heat_map_plot.h"
-#include "sweeps/variables.h"
 #include "system/version.h"
 
 namespace wholehand {

@@ -28,7 +28,7 @@ struct CompanionRequest {
 };
 
 // Sets by the core whatever is known of the grips of each list beside their places, scores, refinements and robust scores. A device would have to
-// compile kernels with more outputs, for some sixty grips.
+// compile kernels with more outputs, for a few grips.
 void describe_best(const CompanionRequest& request, std::vector<std::vector<BestGrip>>& lists);
 
 // Answers the names of the files, as the closing lines have them. `maps` null: the score is not kept, and there are none. `info`: the

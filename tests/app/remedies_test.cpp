@@ -72,8 +72,7 @@ void expect_helps(const std::vector<RemedyCase>& cases, int code = 2) {
 TEST(FollowedRemedies, HelpSweepAndRank) {
   const std::string rank = SWEPT + "rank @.nc ", keep = "[output]\nkeep = [\"score\"";
   expect_helps({
-      {WHOLE, rank + "--where 'max(effort) < 2'", "write worst_effort or tips_worst_effort, which it has", WHOLE,
-       rank + "--where 'worst_effort < 2'"},
+      {WHOLE, rank + "--where 'max(effort) < 2'", "write worst_effort, which it has", WHOLE, rank + "--where 'worst_effort < 2'"},
       {WHOLE, rank + "--where 'max(effort) < 2'", "add \"effort\" to [output] also of the scene",
        WHOLE + "[output]\nalso = [\"effort\"]\n", rank + "--where 'max(effort) < 2'"},
       {WHOLE + keep + ", \"plausible\", \"not_held\"]\n", rank + "--where 'gap_mm < 200'",

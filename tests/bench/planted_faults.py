@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Plants faults, one at a time, and says which test finds each.
 
-    tests/bench/planted_faults.py [--seed N] [--faults N] [--later] [--list]
+    tests/bench/planted_faults.py [--seed N] [--faults N] [--from PLACE [--skip N]] [--later] [--list]
 
 Each fault lies in another folder of the product: a statement of one of its files, changed in its sign, bound, index or order. Folders, files and
 statements are drawn by the seed. What does not compile is drawn again. Run it in a clone of its own, where `./wholehand test` has passed: it

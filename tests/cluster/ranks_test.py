@@ -389,7 +389,8 @@ class Ranks(Job):
         another_code = self.path("wholehand-mpi")
         with open(MPI_PROGRAM, "rb") as file:
             program = bytearray(file.read())
-        program[re.search(rb"sha1-[0-9a-f]{40}\x00", program).start() + 5] ^= 1
+        first_digit = re.search(rb"sha1-[0-9a-f]{40}\x00", program).start() + 5
+        program[first_digit] = ord("1") if program[first_digit] == ord("0") else ord("0")
         with open(another_code, "wb") as file:
             file.write(program)
         os.chmod(another_code, 0o755)

@@ -51,7 +51,8 @@ TEST(ReportPage, TellsThatTheBestIsAtTheEndOfAnAxis) {
 
 // A list need not be in the order of the scores: the page shows its first grip.
 TEST(ReportPage, ShowsTheForcesOfTheFirstGripOfTheList) {
-  const SweptScene swept(edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"));
+  const SweptScene swept(
+      edited(edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"), "apart_mm = 0", "apart_mm = 0\nalso = [\"push\"]"));
   const std::string list = swept.folder / "firm.csv";
   ASSERT_EQ(run("PROGRAM rank " + swept.path + " --rank-by push -o " + list + " >/dev/null").code, 0);
   SweepResult result(swept.path);

@@ -160,7 +160,10 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const 
   return below.submit(of_driver(queue), count, infos, fence);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL wait_idle(VkQueue queue) { return below.wait_idle(of_driver(queue)); }
+VKAPI_ATTR VkResult VKAPI_CALL wait_idle(VkQueue queue) {
+  const std::lock_guard lock(mutex);
+  return below.wait_idle(of_driver(queue));
+}
 
 VKAPI_ATTR VkResult VKAPI_CALL create_pool(VkDevice on, const VkCommandPoolCreateInfo* info, const VkAllocationCallbacks* allocator,
                                            VkCommandPool* made) {

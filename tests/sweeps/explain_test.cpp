@@ -171,8 +171,8 @@ TEST(Explain, SaysWhatEffortsCost) {
       std::regex_search(explained.text, match, std::regex("not left out: the efforts, which cost ([0-9.]+) us and ([0-9]+) B")))
       << explained.text;
   EXPECT_GT(std::stod(match[1]), 0);
-  // worst effort, its fill and tilt, that of the tips, push and friction, less the largest hold force: five doubles more
-  EXPECT_EQ(std::stoi(match[2]), 5 * 8) << explained.text;
+  // worst effort, its fill and tilt, less the largest hold force: two doubles more
+  EXPECT_EQ(std::stoi(match[2]), 2 * 8) << explained.text;
   ASSERT_TRUE(std::regex_search(explained.text, match,
                                 std::regex("of ([0-9]+) plausible grips .* takes ([0-9.]+) pivots a state; ([0-9]+) %")))
       << explained.text;

@@ -184,5 +184,20 @@ TEST(Unheld, WhereSomeHoldTheListIsTheirsAlone) {
   EXPECT_EQ(listed(true), listed(false));
 }
 
+// A sweep does not keep the friction that its grips need.
+TEST(Unheld, WhereNoForceHoldsItIsTheGripOfLeastFriction) {
+  Scene scene = scene_from(HEAVY);
+  scene.force.friction = 0;
+  const auto core = make_core_evaluator(scene);
+  const Plan plan(scene, false);
+  const LeastBad known = nearest_of(scene, *core, plan).grip;
+  ASSERT_EQ(known.effort, LeastBad::ENDLESS);
+  ASSERT_LT(known.friction, 10);
+  const LeastBad blind{LeastBad::ENDLESS, LeastBad::ENDLESS, known.grip == 0 ? 1u : 0u};
+  EXPECT_EQ(with_least_friction(*core, scene, plan, 0, blind), known);
+  const LeastBad weak{1.5, LeastBad::ENDLESS, 3};
+  EXPECT_EQ(with_least_friction(*core, scene, plan, 0, weak), weak) << "strength fails";
+}
+
 }  // namespace
 }  // namespace wholehand
