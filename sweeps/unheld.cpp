@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "grips/report.h"
 #include "grips/states.h"
+#include "shaders/status.h"
 #include "system/readable.h"
 
 namespace wholehand {
