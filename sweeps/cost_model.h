@@ -15,9 +15,9 @@ namespace wholehand {
 // Properties of a sweep that change the cost of a grip. For meshes, only whether there is one.
 struct SweepTask {
   std::uint64_t grips = 0;  // evaluated, of all vessels
-  bool has_efforts = false, has_reserves = false, has_mesh = false,
-       is_robust = false;  // reserves: tips_worst_effort, push or friction_needed
-  int between = 0;         // spheres on each bone
+  bool has_efforts = false, has_mesh = false, is_robust = false;
+  bool has_reserves = false;  // tips_worst_effort, push or friction_needed of every grip
+  int between = 0;            // spheres on each bone
   std::size_t states = 0;
   int threads = 1;
   std::string precision;  // "float", "double", or "" for what is usual where it runs

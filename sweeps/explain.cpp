@@ -26,8 +26,8 @@
 namespace wholehand {
 namespace {
 
-constexpr std::uint64_t RUNS = 6;         // of each way; the first makes ready
-constexpr long long SEARCHED_GRIPS = 64;  // for the figures of the search, at most
+constexpr std::uint64_t RUNS = 6;           // of each way; the first makes ready
+constexpr std::size_t SEARCHED_GRIPS = 64;  // for the figures of the search, at most
 
 // A way to evaluate the sample: what it took a grip, and what a grip takes in memory.
 struct Measured {
@@ -300,18 +300,28 @@ class Explainer {
     searches();
   }
 
+  // Plausible grips of the sample, SEARCHED_GRIPS at most.
+  std::vector<GripInput> plausible_grips(const Evaluator& core) const {
+    std::vector<GripInput> grips;
+    for (std::size_t i = 0; i < sample_.size() && grips.size() < SEARCHED_GRIPS;
+         i += std::max<std::size_t>(1, sample_.size() / (8 * SEARCHED_GRIPS))) {
+      GripResult result;
+      core.grip(0, sample_[i], result);
+      if (result.reason == Reason::none && result.plausible) grips.push_back(sample_[i]);
+    }
+    return grips;
+  }
+
   void searches() {
     if (is_counting_) return;
     const auto core = make_core_evaluator(scene_);
-    long long grips = 0, states = 0, skipped = 0, pivots = 0, unheld = 0;
-    for (std::size_t i = 0; i < sample_.size() && grips < SEARCHED_GRIPS;
-         i += std::max<std::size_t>(1, sample_.size() / (8 * SEARCHED_GRIPS))) {
+    long long states = 0, skipped = 0, pivots = 0, unheld = 0;
+    const std::vector<GripInput> grips = plausible_grips(*core);
+    for (const GripInput& grip : grips) {
       GripResult result;
-      core->grip(0, sample_[i], result);
-      if (result.reason != Reason::none || !result.plausible) continue;
-      const Holding holding(scene_, *core, 0, result, pour_direction(scene_, sample_[i]));
+      core->grip(0, grip, result);
+      const Holding holding(scene_, *core, 0, result, pour_direction(scene_, grip));
       const std::optional<GripHold> hold = holding.over_states();
-      ++grips;
       states += hold->states;
       skipped += hold->skipped;
       pivots += hold->pivots;
@@ -320,7 +330,7 @@ class Explainer {
     if (states == 0) return;
     say("    of {} plausible grips the core's search for the worst effort takes {:.2f} pivots a state; {:.0f} % of the states are "
         "passed by once the worst is known\n",
-        grips, static_cast<double>(pivots) / static_cast<double>(states),
+        grips.size(), static_cast<double>(pivots) / static_cast<double>(states),
         100 * static_cast<double>(skipped) / static_cast<double>(states));
     say("    the gate reads the worst effort and costs nothing more: {} of these grips are not held, and nothing judges them "
         "further\n",
@@ -333,12 +343,7 @@ class Explainer {
     const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_);
     if (is_counting_) return microseconds(measure(scene_, fields, OUTLINE_SPECIALIZED, true, Precision::full));
     const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene_);
-    std::vector<GripInput> grips;
-    for (std::size_t i = 0; i < sample_.size() && grips.size() < 4 * SEARCHED_GRIPS; ++i) {
-      GripResult result;
-      core->grip(0, sample_[i], result);
-      if (result.reason == Reason::none && result.plausible) grips.push_back(sample_[i]);
-    }
+    std::vector<GripInput> grips = plausible_grips(*core);
     if (grips.empty()) grips = sample_;
     RunRequest request;
     request.last = grips.size();
