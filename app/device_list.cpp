@@ -25,7 +25,10 @@ void print_vulkan_devices() {
   for (const host::DeviceInfo& device : devices) {
     print(fmt::format("vulkan:{}  {}  ({}){}\n", device.index, device.name, host::device_kind_name(device.kind),
                       device.index == first ? "  <- --on vulkan" : ""));
-    print(fmt::format("  driver {}, Vulkan {}\n", device.driver, device.api_version));
+    const std::string conformance = device.conformance.empty()        ? ""
+                                    : device.conformance == "0.0.0.0" ? ", passed no conformance tests"
+                                                                      : ", passed the conformance tests " + device.conformance;
+    print(fmt::format("  driver {}, Vulkan {}{}\n", device.driver, device.api_version, conformance));
     if (!device.unusable.empty()) {
       print(fmt::format("  cannot be used: {}\n", device.unusable));
       continue;

@@ -36,12 +36,14 @@ struct DeviceInfo {
   std::string name;       // "llvmpipe (LLVM 15.0.6, 256 bits)"
   std::string driver;     // driver and version: "llvmpipe, Mesa 22.3.6 (LLVM 15.0.6)"
   DeviceKind kind = DeviceKind::other;
-  std::string api_version;      // "1.3.230"
-  std::string uuid;             // of device, 32 hexadecimal digits
-  std::string unusable;         // why it cannot be used; empty: it can
-  bool float64 = false;         // shaders may compute in double
-  bool unified_memory = false;  // the host reads and writes the device's memory directly
-  bool timestamps = false;      // kernels are timed by the device (by the host's clock where it cannot)
+  std::string api_version;                   // "1.3.230"
+  std::string conformance;                   // version of the tests that the driver passed: "1.3.1.1"; "0.0.0.0": none
+  std::string uuid;                          // of device, 32 hexadecimal digits
+  std::string unusable;                      // why it cannot be used; empty: it can
+  bool float64 = false;                      // shaders may compute in double
+  std::vector<std::uint32_t> kept_widths{};  // widths (32, 64) of reals whose NaN, infinities and signed zeros shaders may rely on
+  bool unified_memory = false;               // the host reads and writes the device's memory directly
+  bool timestamps = false;                   // kernels are timed by the device (by the host's clock where it cannot)
   std::uint32_t subgroup_size = 0;
   std::uint64_t memory = 0;             // of the largest device-local heap, bytes
   std::uint64_t max_allocation = 0;     // of one allocation, bytes
@@ -49,6 +51,8 @@ struct DeviceInfo {
   std::uint64_t max_uniform_range = 0;  // of one uniform buffer, bytes
   std::uint64_t max_texel_range = 0;    // of one texel buffer of uints, bytes: 256 KiB at least
   std::uint32_t max_group_invocations = 0;
+  std::array<std::uint32_t, 3> max_group_size{};
+  std::uint32_t max_storage_buffers = 0;  // of one kernel
   std::array<std::uint32_t, 3> max_group_count{};
   std::uint32_t shared_memory = 0;  // of a work group, bytes
 };

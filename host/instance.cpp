@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <string_view>
 
 #include "host/vulkan.h"
 #include "system/memory_limit.h"
@@ -17,7 +18,14 @@ constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
 // A library for which there is no room looks like one that is not there.
 std::string first_remedy() {
   const std::string limit = memory_limit_text();
-  return limit.empty() ? ": install mesa-vulkan-drivers and libvulkan1" : limit + "; raise that";
+  if (!limit.empty()) return limit + "; raise that";
+  // NVIDIA's container runtime sets the first, and leaves Vulkan out of its driver unless the second asks for it
+  const char* capabilities = std::getenv("NVIDIA_DRIVER_CAPABILITIES");
+  const std::string_view asked = capabilities ? capabilities : "";
+  const bool lacks_graphics =
+      std::getenv("NVIDIA_VISIBLE_DEVICES") && asked.find("all") == asked.npos && asked.find("graphics") == asked.npos;
+  return std::string(": install mesa-vulkan-drivers and libvulkan1") +
+         (lacks_graphics ? "; for NVIDIA's, start the container with NVIDIA_DRIVER_CAPABILITIES=all" : "");
 }
 
 struct Messages {
@@ -157,6 +165,8 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, std::size_t
   info.max_uniform_range = core.limits.maxUniformBufferRange;
   info.max_texel_range = std::uint64_t(core.limits.maxTexelBufferElements) * sizeof(std::uint32_t);
   info.max_group_invocations = core.limits.maxComputeWorkGroupInvocations;
+  std::ranges::copy(core.limits.maxComputeWorkGroupSize, info.max_group_size.begin());
+  info.max_storage_buffers = core.limits.maxPerStageDescriptorStorageBuffers;
   std::ranges::copy(core.limits.maxComputeWorkGroupCount, info.max_group_count.begin());
   info.shared_memory = core.limits.maxComputeSharedMemorySize;
   info.float64 = physical.getFeatures().shaderFloat64;
@@ -196,6 +206,11 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, std::size_t
   info.max_allocation = v11.maxMemoryAllocationSize;
   info.subgroup_size = v11.subgroupSize;
   info.driver = std::string(v12.driverName.data()) + ", " + v12.driverInfo.data();
+  const vk::ConformanceVersion& passed = v12.conformanceVersion;
+  info.conformance = std::to_string(passed.major) + "." + std::to_string(passed.minor) + "." + std::to_string(passed.subminor) +
+                     "." + std::to_string(passed.patch);
+  if (v12.shaderSignedZeroInfNanPreserveFloat32) info.kept_widths.push_back(32);
+  if (v12.shaderSignedZeroInfNanPreserveFloat64 && info.float64) info.kept_widths.push_back(64);
   for (const std::uint8_t byte : v11.deviceUUID) {
     constexpr const char* DIGITS = "0123456789abcdef";
     info.uuid += {DIGITS[byte >> 4], DIGITS[byte & 15]};

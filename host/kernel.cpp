@@ -86,6 +86,13 @@ std::array<std::uint32_t, 3> final_group_size(const ShaderInterface& shader, std
   return size;
 }
 
+// A module may only declare a width of reals that it has.
+std::vector<std::uint32_t> kept_widths(const DeviceInfo& device, const ShaderInterface& shader) {
+  std::vector<std::uint32_t> widths = device.kept_widths;
+  if (!shader.float64) std::erase(widths, 64u);
+  return widths;
+}
+
 }  // namespace
 
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::span<const Constant> constants, std::string name)
@@ -96,6 +103,13 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::
     throw usage_error(on.info.name + " cannot compute in double precision (kernel " + name + ")", Remedy::float_precision);
   }
   state_->group_size = final_group_size(shader, constants);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (state_->group_size[axis] > on.info.max_group_size[axis])
+      throw failure_error("kernel " + name + ": groups of " + std::to_string(state_->group_size[axis]) +
+                              " invocations along an axis, and " + on.info.name + " takes " +
+                              std::to_string(on.info.max_group_size[axis]),
+                          Remedy::core);
+  }
   const std::uint64_t invocations = std::uint64_t(state_->group_size[0]) * state_->group_size[1] * state_->group_size[2];
   if (invocations == 0 || invocations > on.info.max_group_invocations) {
     throw failure_error("kernel " + name + ": groups of " + std::to_string(invocations) + " invocations, and " + on.info.name +
@@ -107,8 +121,14 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::
     state_->bindings.emplace_back(binding.binding, descriptor_type(binding.kind));
     layout.emplace_back(binding.binding, state_->bindings.back().second, 1, vk::ShaderStageFlagBits::eCompute);
   }
+  const auto buffers = std::ranges::count(shader.bindings, BindingKind::storage, [](const ShaderBinding& one) { return one.kind; });
+  if (buffers > on.info.max_storage_buffers) {
+    throw failure_error("kernel " + name + ": " + std::to_string(buffers) + " storage buffers, and " + on.info.name + " takes " +
+                            std::to_string(on.info.max_storage_buffers),
+                        Remedy::core);
+  }
   const Specialization specialization = specialize(shader, constants, name);
-  const std::vector<std::uint32_t> code = specialized(words, specialization.bits);
+  const std::vector<std::uint32_t> code = specialized(words, specialization.bits, kept_widths(on.info, shader));
   checked("compiling kernel " + name, [&] {
     state_->set_layout = vk::raii::DescriptorSetLayout(*on.device, vk::DescriptorSetLayoutCreateInfo({}, layout));
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, MAX_PUSH);

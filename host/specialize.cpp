@@ -61,13 +61,15 @@ struct Block {
 // What is known of a module: numbers and truth of its constants of 32 bits and of booleans.
 class Specializer {
  public:
-  Specializer(Code words, const SpecializationBits& bits) : words_(words), bits_(bits) {}
+  Specializer(Code words, const SpecializationBits& bits, Code kept_widths)
+      : words_(words), bits_(bits), kept_widths_(kept_widths) {}
 
   // False where it meets what it does not follow.
   bool run(Words& out) {
     std::vector<Code> body;
     out.assign(words_.begin(), words_.begin() + SPIRV_HEADER);
     out.reserve(words_.size());
+    if (!kept_widths_.empty()) put(out, OpCapability, {CAPABILITY_KEEPS_SPECIALS});
     for (std::size_t at = SPIRV_HEADER; at < words_.size();) {
       const Code code = words_.subspan(at, words_[at] >> 16);
       at += code.size();
@@ -82,6 +84,7 @@ class Specializer {
         put_declaration(code, out);
       }
     }
+    set_group_size(out);
     drop_words_on_what_is_gone(out);
     return true;
   }
@@ -89,6 +92,12 @@ class Specializer {
  private:
   void put_declaration(Code code, Words& out) {
     switch (op_of(code)) {
+      case OpExecutionMode:
+      case OpExecutionModeId:
+        for (const std::uint32_t width : kept_widths_) put(out, OpExecutionMode, {code[1], MODE_KEEPS_SPECIALS, width});
+        kept_widths_ = {};
+        if (op_of(code) == OpExecutionModeId && code[2] == MODE_LOCAL_SIZE_ID) size_at_ = out.size();
+        break;
       case OpDecorate:
         if (code[2] != DECORATION_SPEC_ID) break;
         spec_id_[code[1]] = code[3];
@@ -116,6 +125,15 @@ class Specializer {
         break;
     }
     out.insert(out.end(), code.begin(), code.end());
+  }
+
+  void set_group_size(Words& out) const {
+    if (size_at_ == 0) return;
+    const std::span size(out.data() + size_at_, 6);
+    if (!std::ranges::all_of(size.last(3), [&](std::uint32_t id) { return value_.contains(id); })) return;
+    size[0] = 6 << 16 | OpExecutionMode;
+    size[2] = MODE_LOCAL_SIZE;
+    for (std::uint32_t& axis : size.last(3)) axis = value_.at(axis);
   }
 
   std::optional<std::uint64_t> given(std::uint32_t id) const {
@@ -338,6 +356,8 @@ class Specializer {
 
   Code words_;
   const SpecializationBits& bits_;
+  Code kept_widths_;         // still to be declared
+  std::size_t size_at_ = 0;  // place of the instruction with the ids of the group's size; 0: there is none
   std::unordered_map<std::uint32_t, std::uint32_t> spec_id_, value_;
   std::unordered_set<std::uint32_t> small_;  // types of integers of 32 bits
   std::unordered_set<std::uint32_t> gone_;   // results that were left out
@@ -345,9 +365,10 @@ class Specializer {
 
 }  // namespace
 
-std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> words, const SpecializationBits& bits) {
+std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> words, const SpecializationBits& bits,
+                                       std::span<const std::uint32_t> kept_widths) {
   Words out;
-  return Specializer(words, bits).run(out) ? out : Words(words.begin(), words.end());
+  return Specializer(words, bits, kept_widths).run(out) ? out : Words(words.begin(), words.end());
 }
 
 }  // namespace wholehand::host

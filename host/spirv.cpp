@@ -11,7 +11,6 @@ namespace wholehand::host {
 namespace {
 
 constexpr std::uint32_t GL_COMPUTE = 5, CAPABILITY_FLOAT64 = 10;
-constexpr std::uint32_t MODE_LOCAL_SIZE = 17, MODE_LOCAL_SIZE_ID = 38;
 constexpr std::uint32_t DECORATION_BINDING = 33, DECORATION_DESCRIPTOR_SET = 34;
 constexpr std::uint32_t STORAGE_UNIFORM_CONSTANT = 0, STORAGE_UNIFORM = 2, STORAGE_BUFFER = 12;
 

@@ -10,6 +10,8 @@ namespace wholehand::host {
 constexpr std::uint32_t SPIRV_MAGIC = 0x07230203;
 constexpr std::size_t SPIRV_HEADER = 5;  // words before the first instruction
 constexpr std::uint32_t DECORATION_SPEC_ID = 1;
+constexpr std::uint32_t MODE_LOCAL_SIZE = 17, MODE_LOCAL_SIZE_ID = 38, MODE_KEEPS_SPECIALS = 4461;  // SignedZeroInfNanPreserve
+constexpr std::uint32_t CAPABILITY_KEEPS_SPECIALS = 4466;
 
 enum Op : std::uint32_t {
   OpNop = 0,

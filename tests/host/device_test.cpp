@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <utility>
 
 #include "tests/support/vulkan_listener.h"
 
@@ -51,6 +53,9 @@ TEST(HostDevice, ListSaysWhatEachCanDo) {
       EXPECT_GE(devices[i].max_allocation, 1u << 30);
       EXPECT_GE(devices[i].max_uniform_range, 1u << 14);
       EXPECT_GE(devices[i].max_group_invocations, 128u);
+      EXPECT_GE(devices[i].max_storage_buffers, 4u);
+      for (const std::uint32_t size : devices[i].max_group_size) EXPECT_GE(size, 64u);
+      EXPECT_EQ(std::ranges::count(devices[i].conformance, '.'), 3) << devices[i].conformance;
       EXPECT_GE(devices[i].max_group_count[0], 65535u);
       EXPECT_GE(devices[i].subgroup_size, 1u);
       EXPECT_GT(devices[i].memory, 0u);
@@ -123,10 +128,11 @@ TEST(HostDevice, MissingLoaderIsOneLineWithRemedy) {
 // Another process: the loader reads its environment and drivers once.
 TEST(HostDeviceDeathTest, MissingDriverIsOneLineWithRemedy) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
+  for (const auto& [variable, is_nvidia] : {std::pair{"VK_DRIVER_FILES", true}, {"VK_ICD_FILENAMES", false}}) {
     EXPECT_EXIT(
         {
           setenv(variable, "/nonexistent", 1);
+          if (is_nvidia) setenv("NVIDIA_VISIBLE_DEVICES", "all", 1);
           try {
             list_devices();
           } catch (const Error& error) {
@@ -136,7 +142,8 @@ TEST(HostDeviceDeathTest, MissingDriverIsOneLineWithRemedy) {
           std::_Exit(0);
         },
         testing::ExitedWithCode(3),
-        std::string("^no Vulkan driver in .") + variable + ": install mesa-vulkan-drivers and libvulkan1");
+        std::string("^no Vulkan driver in .") + variable + ": install mesa-vulkan-drivers and libvulkan1" +
+            (is_nvidia ? "; for NVIDIA's, start the container with NVIDIA_DRIVER_CAPABILITIES=all\n" : "\n"));
   }
 }
 

@@ -91,9 +91,11 @@ TEST(Shaders, SpecializedOnesAreValid) {
                                {CONST_ARM, 24},        {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_SAFE}};
   for (std::uint32_t f = 0; f < FIELDS; ++f) all[CONST_PLANE + f] = f;
   const host::SpecializationBits few{{CONST_OUTLINE_COUNT, 3}, {CONST_SDF_KIND, SDF_OUTLINE}, {CONST_PLANE + FIELD_SCORE, 0}};
-  for (const EmbeddedShader& shader : embedded_shaders())
+  for (const EmbeddedShader& shader : embedded_shaders()) {
+    const std::vector<std::uint32_t> widths = shader.precision == 0 ? std::vector{32u} : std::vector{32u, 64u};
     for (const host::SpecializationBits& bits : {all, few})
-      EXPECT_EQ(complaints(host::specialized(shader.words, bits)), "") << label(shader);
+      EXPECT_EQ(complaints(host::specialized(shader.words, bits, widths)), "") << label(shader);
+  }
 }
 
 }  // namespace

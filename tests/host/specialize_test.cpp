@@ -85,6 +85,33 @@ TEST(HostSpecialize, ConstantsAreNumbersThen) {
   expect_sound(module, "host_scale");
 }
 
+// AMDVLK before 2023-10 took the ids of LocalSizeId for the size itself.
+TEST(HostSpecialize, TheGroupsSizeBecomesNumbers) {
+  const auto shader = test_shader("host_scale");
+  ASSERT_EQ(count_of(shader, OpExecutionModeId), 1u);
+  const Words module = specialized(shader, {{0, 32}});
+  EXPECT_EQ(count_of(module, OpExecutionModeId), 0u);
+  std::vector<Words> modes;
+  for_each(module, [&](std::uint32_t op, std::span<const std::uint32_t> code) {
+    if (op == OpExecutionMode) modes.emplace_back(code.begin() + 2, code.end());
+  });
+  EXPECT_EQ(modes, (std::vector<Words>{{MODE_LOCAL_SIZE, 32, 1, 1}}));
+}
+
+TEST(HostSpecialize, KeptWidthsAreDeclaredOnceEach) {
+  const std::vector<std::uint32_t> widths{32, 64};
+  const Words module = specialized(test_shader("host_scale", 1), {{0, 32}}, widths);
+  std::size_t capabilities = 0;
+  std::vector<std::uint32_t> declared;
+  for_each(module, [&](std::uint32_t op, std::span<const std::uint32_t> code) {
+    capabilities += op == OpCapability && code[1] == CAPABILITY_KEEPS_SPECIALS;
+    if (op == OpExecutionMode && code[2] == MODE_KEEPS_SPECIALS) declared.push_back(code[3]);
+  });
+  EXPECT_EQ(capabilities, 1u);
+  EXPECT_EQ(declared, widths);
+  expect_sound(module, "host_scale");
+}
+
 TEST(HostSpecialize, AllBitsOfADoubleAreKept) {
   const auto third = std::bit_cast<std::uint64_t>(1.0 / 3);
   std::size_t found = 0;
@@ -183,6 +210,7 @@ TEST(HostSpecialize, EveryShaderStaysSound) {
       const Words module = specialized(shader.words, bits);
       EXPECT_LT(module.size(), shader.words.size()) << name << ": nothing was left out";
       EXPECT_EQ(count_of(module, OpSpecConstant), 0u) << name;
+      EXPECT_EQ(count_of(module, OpExecutionModeId), 0u) << name;
       EXPECT_NO_THROW(read_interface(module, name));
       expect_sound(module, name);
     }
