@@ -30,6 +30,7 @@
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "scene/text.h"
+#include "sweeps/auto_backend.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/idle_notes.h"
@@ -47,7 +48,7 @@ struct GripArguments {
   std::string scene, vessel, height, azimuth = "0", obliquity = "0", roll = "0", offset = "0", hand_scale, thumb, index;
   std::string rank, list;
   std::vector<std::string> fills, volumes, tilts;
-  std::string on = "core", precision, glb, svg, view_port;
+  std::string on = ON_AUTO, precision, glb, svg, view_port;
   bool json = false, view = false, quality = false, refined = false;
 };
 
@@ -203,7 +204,9 @@ ChosenGrip ranked_grip(const GripArguments& arguments) {
                                 counted(lists[place].size(), "grip"), list_name(chosen.scene, plan, place), remedy));
 }
 
-ExitCode grip(const GripArguments& arguments) {
+ExitCode grip(const GripArguments& given) {
+  GripArguments arguments = given;
+  if (arguments.on == ON_AUTO) arguments.on = "core";
   prepare_vulkan_environment(arguments.on);
   const int port = parse_view_port(arguments.view_port, arguments.view);
   auto [scene, vessel, input] = arguments.rank.empty() ? asked_grip(arguments) : ranked_grip(arguments);
@@ -282,7 +285,9 @@ void add_grip_command(CLI::App& app, Action& action) {
   auto* fill = add("--fill", arguments->fills, "F", "Fills, as fractions of the capacity (default: the scene's)");
   add("--fill-ml", arguments->volumes, "V", "Instead of --fill: fills in mL")->excludes(fill);
   add("--tilt-deg", arguments->tilts, "T", "Tilts (default: the scene's)");
-  add("--on", arguments->on, "DEVICE", "core (the default), vulkan or the name of a device")->check(offered("core vulkan"));
+  add("--on", arguments->on, "DEVICE",
+      "auto (the default) or core: the core, as one grip is too little for a device; vulkan or the name of a device")
+      ->check(offered("auto core vulkan"));
   add("--precision", arguments->precision, "P", "float or double (default: double on the core, float on Vulkan)")
       ->check(offered("float double"));
   command->add_flag("--quality", arguments->quality,

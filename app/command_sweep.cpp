@@ -64,8 +64,9 @@ CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Sweep
       ->check(not_empty());
   command
       ->add_option("--on", arguments->on,
-                   "auto (the default): core or device, whichever ended such sweeps sooner; core; vulkan: the best device; or the "
-                   "name of a device")
+                   "auto (the default): a GPU, or a CPU driver that is expected to be faster, where the core needs more than a "
+                   "second; core; "
+                   "vulkan: the best device; or the name of a device")
       ->type_name("DEVICE")
       ->check(offered("auto core vulkan"))
       ->check(not_empty());

@@ -1229,7 +1229,7 @@ ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene,
                            InterruptGuard& interrupt) {
   Scene scene;
   SweepOptions own = options;
-  if (own.on == ON_AUTO) own.on = "vulkan";  // all ranks alike: the times of one machine say nothing of many
+  if (own.on == ON_AUTO) own.on = "vulkan";  // all ranks alike, whatever devices the nodes have
   or_abort(team, [&] {
     agree(team, caught([&] {
             scene = read_scene();

@@ -13,10 +13,12 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "host/open_backend.h"
+#include "program/vulkan_environment.h"
 #include "python/bind.h"
 #include "python/columns.h"
 #include "python/scene.h"
 #include "shaders/status.h"
+#include "sweeps/auto_backend.h"
 #include "sweeps/different_grips.h"
 #include "sweeps/robust.h"
 
@@ -165,26 +167,54 @@ void run_batch(Batch& batch, std::size_t vessel, const GripColumns& grips, const
     throw failure_error(batch.backend->info().device + ": fewer grips came back than were asked for");
 }
 
+// "auto" resolved for so many grips: the core in a process that was forked from one with a device, too.
+std::string resolved_backend(const SceneHandle& handle, std::uint64_t grips,
+                             const std::optional<std::vector<std::string>>& variables, const std::string& on,
+                             const std::optional<std::string>& precision, int threads) {
+  if (on != ON_AUTO) {
+    prepare_device(on);
+    return on;
+  }
+  const Scene& scene = handle.described();
+  Workload work = workload_of(scene, variables ? named_variables(scene, *variables, "variables") : choose_variables(scene), grips);
+  work.is_robust = false;  // there are no lists
+  if (!pays_for_device(work, threads) || is_forked_from_device()) return "core";
+  prepare_vulkan_environment(on);
+  std::string chosen;
+  {
+    const py::gil_scoped_release other_threads;
+    chosen = choose_backend(work, threads, precision_of(precision, "core")).on;
+  }
+  prepare_device(chosen);
+  return chosen;
+}
+
 py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& arrays,
-                   const std::optional<std::vector<std::string>>& variables, const std::string& on,
+                   const std::optional<std::vector<std::string>>& variables, const std::string& asked_on,
                    const std::optional<std::string>& precision, int threads) {
-  prepare_device(on);
   const GripColumns grips(arrays);
-  const BatchWish wish{variables, on, precision_of(precision, on), threads_of(threads)};
+  std::string on = resolved_backend(handle, grips.count(), variables, asked_on, precision, threads_of(threads));
+  BatchWish wish{variables, on, precision_of(precision, on), threads_of(threads)};
   check_vessel(handle.described(), vessel);
   std::shared_ptr<Batch> batch;
   const Scene* scene = nullptr;
   std::atomic<bool> stop{false};
   with_signals(stop, [&] {
     grips.check(stop);
-    batch = handle.batch(wish);
+    try {
+      batch = handle.batch(wish);
+    } catch (const Error&) {
+      if (asked_on != ON_AUTO || on == "core") throw;
+      wish.on = on = "core";  // where it was not the device, this throws again
+      batch = handle.batch(wish);
+    }
     scene = &handle.whole(on);
   });
   const std::vector<Output> outputs = make_outputs(*batch, *scene, grips.count());
   if (grips.count() > 0 && !outputs.empty()) with_signals(stop, [&] { run_batch(*batch, vessel, grips, outputs, stop); });
   py::dict values;
   for (const Output& output : outputs) values[output.variable->name] = output.array;
-  return py::make_tuple(values, batch->backend->info().device);
+  return py::make_tuple(values, on);
 }
 
 // In blocks on all threads; most lists are full within the first.

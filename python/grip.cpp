@@ -19,6 +19,7 @@
 #include "python/scene.h"
 #include "scene/fills.h"
 #include "scene/text.h"
+#include "sweeps/auto_backend.h"
 #include "sweeps/robust.h"
 #include "system/files.h"
 
@@ -137,8 +138,9 @@ class GripHandle {
 
 std::unique_ptr<GripHandle> make_grip(const SceneHandle& handle, std::size_t vessel, const GripNumbers& numbers,
                                       std::optional<std::vector<double>> fills, std::optional<std::vector<double>> volumes,
-                                      std::optional<std::vector<double>> tilts, const std::string& on,
+                                      std::optional<std::vector<double>> tilts, const std::string& asked_on,
                                       const std::optional<std::string>& precision, bool has_quality) {
+  const std::string on = asked_on == ON_AUTO ? "core" : asked_on;
   prepare_device(on);
   const GripInput grip = input_of(numbers);
   check_grip(grip, "the grip");

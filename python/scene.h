@@ -74,6 +74,9 @@ std::vector<const Variable*> named_variables(const Scene& scene, const std::vect
 // guards the environment. Throws Error (failure) in a process that was forked from one which had a device.
 void prepare_device(const std::string& on);
 
+// Whether a process from which this one was forked has called prepare_device for a device.
+bool is_forked_from_device();
+
 // As the program's option --precision: "float" or "double"; absent: double on the core, float on a device.
 Precision precision_of(const std::optional<std::string>& text, const std::string& on);
 

@@ -5,25 +5,19 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <utility>
+#include <exception>
 
 #include "core/parallel.h"
-#include "host/device_info.h"
+#include "core/planes.h"
+#include "shaders/layout.h"
 #include "sweeps/mark.h"
 #include "sweeps/plan.h"
-#include "sweeps/run_times.h"
 #include "sweeps/sweep_result.h"
-#include "system/cache_folder.h"
-#include "system/files.h"
 #include "system/output.h"
 #include "system/readable.h"
 
 namespace wholehand {
 namespace {
-
-std::string precision_text(const std::optional<Precision>& precision) {
-  return !precision ? "" : *precision == Precision::single ? "float" : "double";
-}
 
 bool is_there(const std::string& path) {
   struct stat status {};
@@ -49,34 +43,90 @@ bool origin_of(const OutputNames& names, std::string& on, Precision& precision) 
   return false;
 }
 
-std::string cost_text(const CostEstimate& cost, const SweepTask& task) {
-  const std::string source =
-      cost.runs == 0 ? "a first guess" : fmt::format("the best of the last {} run{}", cost.runs, cost.runs == 1 ? "" : "s");
-  return fmt::format("{} s and {} us a grip, so {} s, by {}", fixed_text(cost.fixed, 2), fixed_text(1e6 * cost.per_grip, 2),
-                     fixed_text(cost.seconds(task.grips), 2), source);
+// Fitted to sweeps of 27,648 to 313,344 grips with 10 to 155 states (docs/results, "Core or device").
+struct Cost {
+  double start;    // s: opening, lists, charts, the end of the file
+  double grip;     // s of one thread: closed, at rest, examined, written
+  double effort;   // the same, of the worst effort without states
+  double reserve;  // and of the three that are kept on request
+};
+constexpr Cost CORE{0.3, 22e-6, 18e-6, 67e-6}, CPU_DRIVER{0.9, 4.7e-6, 11e-6, 32e-6};
+constexpr double EFFORT_STATES = 100, RESERVE_STATES = 300;  // with so many states, efforts and reserves cost twice as much
+constexpr double ROBUST = 1;                                 // s of one thread, for the deviations of the lists
+constexpr double DOUBLE = 1.8;                               // times as long as float, on a CPU driver
+constexpr int DRIVER_THREADS = 32;                           // llvmpipe takes no more
+
+double seconds_of(const Cost& cost, const Workload& work, int threads) {
+  const auto states = static_cast<double>(work.states);
+  double grip = cost.grip;
+  if (work.has_efforts) grip += cost.effort * (1 + states / EFFORT_STATES);
+  if (work.has_reserves) grip += cost.reserve * (1 + states / RESERVE_STATES);
+  return cost.start + (grip * static_cast<double>(work.grips) + (work.is_robust ? ROBUST : 0)) / threads;
 }
+
+std::string about(double seconds) { return fmt::format("about {} s", fixed_text(seconds, seconds < 10 ? 1 : 0)); }
 
 }  // namespace
 
-std::string precision_trouble(const host::DeviceInfo& device, const std::optional<Precision>& precision) {
-  return precision == Precision::full && !device.float64 ? device.name + " has no double precision" : "";
+Workload workload_of(const Scene& scene, const std::vector<const Variable*>& variables, std::uint64_t grips) {
+  Workload work;
+  work.grips = grips;
+  work.states = scene_fills(scene) * scene.tilts.size();
+  const FieldSet computed = make_field_set(variable_fields(variables), scene);
+  work.is_robust = scene.robust.has_value();
+  work.has_efforts = has_effort(scene);
+  work.has_reserves = computed.has(FIELD_TIPS_WORST_EFFORT) || computed.has(FIELD_PUSH) || computed.has(FIELD_FRICTION_NEEDED);
+  return work;
 }
 
-AutoBackend::AutoBackend(const Scene& scene, SweepOptions& options) : options_(options), is_auto_(options.on == ON_AUTO) {
-  if (is_auto_ && options.resume && resume(scene)) return;
-  const std::string folder = cache_limit() > 0 ? cache_folder() : "";
-  if (!folder.empty()) file_ = run_times_file(folder);
+bool pays_for_device(const Workload& work, int threads) { return core_seconds(work, thread_count(threads)) >= 1; }
+
+double core_seconds(const Workload& work, int threads) { return seconds_of(CORE, work, threads); }
+double cpu_driver_seconds(const Workload& work, int threads, Precision precision) {
+  Cost cost = CPU_DRIVER;
+  if (precision == Precision::full)
+    for (double* part : {&cost.grip, &cost.effort, &cost.reserve}) *part *= DOUBLE;
+  return seconds_of(cost, work, std::min(threads, DRIVER_THREADS));
+}
+
+BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
+                             const std::vector<host::DeviceInfo>& devices) {
+  if (!pays_for_device(work, threads)) return {"core", "; so little work does not pay for a device (`--on vulkan`)"};
+  const host::DeviceInfo& device = host::choose_device(devices, "vulkan");
+  if (precision == Precision::full && !device.float64) return {"core", "; " + device.name + " has no double precision"};
+  const double on_core = core_seconds(work, thread_count(threads));
+  const char* core_precision = precision == Precision::single ? "float" : "double";
+  const std::string core = fmt::format("; the CPU core, {}, would take {} (`--on core`)", core_precision, about(on_core));
+  if (device.kind != host::DeviceKind::cpu) return {"vulkan", core};
+  if (!device.name.starts_with("llvmpipe"))
+    return {"core", fmt::format("; {} is a CPU driver that was never timed (`--on vulkan`)", device.name)};
+  const double on_driver = cpu_driver_seconds(work, thread_count(0), precision.value_or(Precision::single));
+  if (on_driver < on_core) return {"vulkan", core};
+  return {"core", fmt::format("; {}, a CPU driver, would take {} once its kernels are compiled (`--on vulkan`)", device.name,
+                              about(on_driver))};
+}
+
+BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision) try {
+  const bool may_choose = pays_for_device(work, threads);
+  return choose_backend(work, threads, precision, may_choose ? host::list_devices() : std::vector<host::DeviceInfo>{});
+} catch (const Error& error) {
+  return {"core", fmt::format("; {}", error.what())};
+}
+
+AutoBackend::AutoBackend(const Scene& scene, SweepOptions& options) : options_(options) {
+  if (options.on != ON_AUTO || (options.resume && resume(scene))) return;
+  options.on = "core";
   try {
-    const Plan plan(scene, false);
-    task_ =
-        sweep_task(scene, plan.grips() * scene.vessels.size(), thread_count(options.threads), precision_text(options.precision));
+    const std::vector<const Variable*> variables = choose_variables(scene);
+    const Plan plan(scene, keeps_vectors(variables));
+    const Workload work = workload_of(scene, variables, plan.grips() * scene.vessels.size());
+    const BackendChoice choice = choose_backend(work, options.threads, options.precision);
+    options.on = choice.on;
+    options.alternative = choice.alternative;
+    may_change_ = choice.on != "core";
   } catch (const Error&) {
     // the sweep refuses it in its own words
-    if (is_auto_) options_.on = "core";
-    return;
   }
-  keeps_times_ = !file_.empty() && !options.explain && !options.resume && options.glb == 0;
-  if (is_auto_) decide();
 }
 
 bool AutoBackend::resume(const Scene& scene) {
@@ -87,69 +137,15 @@ bool AutoBackend::resume(const Scene& scene) {
   return true;
 }
 
-void AutoBackend::decide() {
-  if (!file_.empty()) history_ = read_run_times(file_, file_trouble_);
-  core_ = estimate(history_, machine_name(), task_, true, guess_core(task_));
-  device_ = device_cost();
-  scale_guess(task_, core_, device_);
-  BackendChoice choice;
-  if (no_device_.empty()) choice = choose_backend(task_, core_, device_);
-  may_change_ = choice.on_device;
-  options_.on = choice.on_device ? "vulkan" : "core";
-  options_.choice = no_device_.empty() ? choice_line(task_, choice, core_, device_) : "chosen: core, since " + no_device_;
-}
-
-// Asks for the devices only where their cost is unknown or old and a device might be worth it: asking alone takes a twentieth of a second.
-CostEstimate AutoBackend::device_cost() {
-  const CostEstimate known = estimate(history_, machine_name(), task_, false, guess_device(task_, true));
-  const bool is_known = known.runs > 0 && known.age < RUNS_TO_OLD;
-  if (is_known || core_.seconds(task_.grips) <= QUICK_CORE) return known;
-  try {
-    const std::vector<host::DeviceInfo> devices = host::list_devices();
-    const host::DeviceInfo& device = host::choose_device(devices, "vulkan");
-    no_device_ = precision_trouble(device, options_.precision);
-    if (device.name == known.device) return known;
-    CostEstimate guess = guess_device(task_, device.kind == host::DeviceKind::cpu);
-    guess.device = device.name;
-    guess.age = known.age;
-    return guess;
-  } catch (const Error& error) {
-    no_device_ = error.what();
-    return known;
-  }
-}
-
 void AutoBackend::take_core() {
   may_change_ = false;
   options_.on = "core";
-  options_.choice = "";
+  options_.alternative = "";
 }
 
 void AutoBackend::say_on_core(const std::string& why) const {
   const std::string line = "on core, since the device does not work: " + why;
   options_.note ? options_.note(line) : say_note(line);
-}
-
-void AutoBackend::remember(const SweepTimes& times, std::uint64_t grips, const BackendInfo& info) {
-  const bool is_core = info.backend == "core";
-  if (!keeps_times_ || grips == 0 || (!is_core && options_.on != "vulkan")) return;
-  std::string trouble;
-  std::vector<RunTime> history = read_run_times(file_, trouble);  // another program may have added to it meanwhile
-  if (trouble.starts_with("it is none")) return;
-  RunTime run{machine_name(), kind_of(task_), is_core ? "core" : info.device, 0, grips, 0, times.kernels + times.writing};
-  run.fixed = std::max(0.0, times.wall - run.growing);
-  add_run(history, std::move(run));
-  write_run_times(file_, history);
-}
-
-std::string AutoBackend::explanation() const {
-  if (!is_auto_ || task_.grips == 0) return "";
-  std::string text = fmt::format("how core or device was chosen, for {} ({})\n", counted(task_.grips, "grip"), kind_of(task_));
-  text += "  core: " + cost_text(core_, task_) + "\n";
-  text += no_device_.empty() ? "  device: " + cost_text(device_, task_) + "\n" : "  device: " + no_device_ + "\n";
-  if (file_.empty()) return text + "  times of earlier sweeps are not kept, as there is no cache\n";
-  return text + (file_trouble_.empty() ? "  times of earlier sweeps: " + file_ + "\n"
-                                       : "  " + file_ + " is ignored: " + file_trouble_ + "\n");
 }
 
 }  // namespace wholehand

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Where a sweep runs that leaves this to the program (`--on auto`).
+// Where a sweep runs that leaves this to the program (`--on auto`). The rule: docs/method.md, "Core or device".
 #pragma once
 
-#include <functional>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -11,22 +12,48 @@
 #include "core/backend.h"
 #include "core/error.h"
 #include "host/device_info.h"
-#include "sweeps/closing.h"
-#include "sweeps/cost_model.h"
 #include "sweeps/sweep_options.h"
+#include "sweeps/variables.h"
 
 namespace wholehand {
 
 inline constexpr const char* ON_AUTO = "auto";
 
-// Why the device cannot compute in the precision that is asked for, half a sentence; "" where it can.
-std::string precision_trouble(const host::DeviceInfo& device, const std::optional<Precision>& precision);
+// What decides how long grips take.
+struct Workload {
+  std::uint64_t grips = 0;  // of all vessels
+  std::size_t states = 0;   // of each grip
+  bool has_efforts = false;
+  bool is_robust = false;
+  bool has_reserves = false;  // tips_worst_effort, push or friction_needed of each grip
+};
 
-// Decides when it is made, before meshes are read; `options.on` then says core or a device, and `options.choice` why. Where `options.on`
-// is not ON_AUTO it only keeps the times. A sweep that is resumed goes on where it began, with the precision that it began with.
+Workload workload_of(const Scene& scene, const std::vector<const Variable*>& variables, std::uint64_t grips);
+
+// s that they take: on so many threads of the core, and on llvmpipe with so many threads once its kernels are compiled.
+double core_seconds(const Workload& work, int threads);
+double cpu_driver_seconds(const Workload& work, int threads, Precision precision);
+
+// Whether a device may be chosen: the core needs a second or more. A device takes about as long to open and to fill.
+bool pays_for_device(const Workload& work, int threads);
+
+struct BackendChoice {
+  std::string on = "core";  // or "vulkan"
+  std::string alternative;  // what the other would take or lacks, the second half of a sentence
+};
+
+// The best device of `devices` or the core. `threads` of the core, 0: all. `precision`: what is asked for, if anything.
+BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
+                             const std::vector<host::DeviceInfo>& devices);
+
+// Chooses among the devices of this machine, which are listed only where one may be chosen. A machine without any has the core. Never throws.
+BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision);
+
+// Decides when it is made, before meshes are read; `options.on` then says core or a device, and `options.alternative` what the other would take.
+// Where `options.on` is not ON_AUTO it does nothing. A sweep that is resumed goes on where it began, with the precision that it began with.
 class AutoBackend {
  public:
-  // Both must outlive the object. Throws Error (usage) where cache_limit() does. A scene that no sweep takes is refused later, by the sweep.
+  // `options` must outlive the object. A scene that no sweep takes is refused later, by the sweep.
   AutoBackend(const Scene& scene, SweepOptions& options);
 
   // What `work` makes of options.on. Where the program chose the device itself and that fails, options.on becomes the core, and `work` is
@@ -51,25 +78,13 @@ class AutoBackend {
     }
   }
 
-  // Keeps what the sweep took, for later choices. Without a cache nothing is kept.
-  void remember(const SweepTimes& times, std::uint64_t grips, const BackendInfo& info);
-
-  // How it decided, for --explain.
-  std::string explanation() const;
-
  private:
   bool resume(const Scene& scene);
-  void decide();
-  CostEstimate device_cost();
   void take_core();
   void say_on_core(const std::string& why) const;
 
   SweepOptions& options_;
-  SweepTask task_;
-  std::string file_, file_trouble_, no_device_;
-  std::vector<RunTime> history_;
-  CostEstimate core_, device_;
-  bool is_auto_ = false, may_change_ = false, keeps_times_ = false;
+  bool may_change_ = false;
 };
 
 }  // namespace wholehand

@@ -147,4 +147,12 @@ std::string closing_lines(const std::vector<std::string>& files, const SweepTime
   return text;
 }
 
+std::string backend_line(const BackendInfo& info, const SweepTimes& times, const std::string& alternative) {
+  const std::string where = info.backend == "core" ? "the CPU core"
+                            : info.is_cpu          ? fmt::format("Vulkan ({}, a CPU driver)", info.device)
+                                                   : fmt::format("Vulkan ({})", info.device);
+  return fmt::format("computed on {}, {}, in {} s{}\n", where, info.precision == Precision::single ? "float" : "double",
+                     fixed_text(times.wall, 1), alternative);
+}
+
 }  // namespace wholehand

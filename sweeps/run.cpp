@@ -28,8 +28,6 @@ ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   Scene scene = given;
   SweepOptions own = options;
   AutoBackend chosen(scene, own);
-  own.choice_explained = chosen.explanation();
-  own.took = [&](const SweepTimes& times, std::uint64_t grips, const BackendInfo& info) { chosen.remember(times, grips, info); };
   const auto open = [&](const FieldSet& fields) {
     const Precision usual = own.on == "core" ? Precision::full : Precision::single;
     return open_backend(scene, fields, own.on, own.precision.value_or(usual), own.threads);

@@ -141,10 +141,8 @@ void Sweep::say_opening() const {
   if (options_.warn) options_.warn(scene_, precision());
   for (const std::string& line : cavity_notes(scene_)) note(line);
   for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) note(line);
-  const std::string choice = options_.choice.empty() ? "" : options_.choice + "\n";
-  print_text(opening_lines(scene_, plan(), info_) + choice + vessel_lines(scene_, facts_) + unjudged_note(scene_, plan()));
+  print_text(opening_lines(scene_, plan(), info_) + vessel_lines(scene_, facts_) + unjudged_note(scene_, plan()));
   if (!options_.explain) return;
-  print_text(options_.choice_explained);
   print_text(explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
 }
 
@@ -632,7 +630,7 @@ void Sweep::finish(ResultFile& file, BestLists best) {
   // kernels that ran while the file was being written cost no time of their own
   const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};
   print_text("\n" + closing_lines(files, times));
-  if (options_.took && wall_before_ == 0) options_.took(times, total(), info_);
+  if (!options_.alternative.empty()) print_text(backend_line(info_, times, options_.alternative));
 }
 
 }  // namespace wholehand

@@ -15,8 +15,6 @@
 
 namespace wholehand {
 
-struct SweepTimes;  // sweeps/closing.h
-
 struct SweepOptions {
   std::string output;                  // NAME.nc; empty: the scene file's name with .nc, in the working directory
   std::string on = "vulkan";           // see open_backend; ON_AUTO (sweeps/auto_backend.h) for run_sweep of a scene
@@ -35,10 +33,8 @@ struct SweepOptions {
   // Takes the notes beside the work, a line each. Where it is set, the sweep is part of another program: nothing is printed, and no progress is
   // shown. Empty: notes go to standard error.
   std::function<void(const std::string&)> note = {};
-  // Why it runs where it runs, one line without its end, and for --explain several; empty: nothing is printed.
-  std::string choice = {}, choice_explained = {};
-  // Called at the end of a sweep that was not resumed, with the grips that were evaluated. May be empty.
-  std::function<void(const SweepTimes&, std::uint64_t, const BackendInfo&)> took = {};
+  // Where the program chose the backend: what the other would take, the second half of a sentence that the closing lines begin.
+  std::string alternative = {};
   std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
   // Scores of one vessel's grips that are kept for further passes, 8 B each; of more grips each pass evaluates all of them again.
   std::size_t remembered = std::size_t{1} << 22;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr auto STALE = std::chrono::hours(1);  // what is not whole by then never will be
 constexpr std::uintmax_t MOST_MEBIBYTES = 1'000'000'000;
-constexpr std::string_view PIPELINES = ".pipelines", RUN_TIMES = "run-times";
+constexpr std::string_view PIPELINES = ".pipelines";
 
 struct CachedFile {
   fs::file_time_type used;
@@ -34,12 +34,8 @@ struct CachedFile {
 bool is_digits(std::string_view text) { return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos; }
 
 // The names that objects/cache.cpp and host/pipeline_cache.cpp give: 32 hexadecimal digits, then KEY.grid, KEY.XXXXXX.partial,
-// DEVICE-DRIVER.pipelines, DEVICE-DRIVER.pipelines.PROCESS. And that of sweeps/run_times.cpp, which begins with RUN_TIMES.
+// DEVICE-DRIVER.pipelines, DEVICE-DRIVER.pipelines.PROCESS.
 bool is_kept_name(std::string_view name, bool& is_whole) {
-  if (name.starts_with(RUN_TIMES)) {
-    is_whole = name == RUN_TIMES;
-    return true;
-  }
   if (name.find_first_not_of("0123456789abcdef") != 32) return false;
   name.remove_prefix(32);
   is_whole = name == ".grid";

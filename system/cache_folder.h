@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the program keeps what it can make again, and how much of it: lattices of meshes in `grids`, compiled pipelines and the times
-// of sweeps beside that.
+// Where the program keeps what it can make again, and how much of it: lattices of meshes in `grids`, compiled pipelines beside it.
 #pragma once
 
 #include <cstddef>

@@ -149,7 +149,7 @@ def evaluate(
     grips: Any,
     variables: str | Iterable[str] | None = None,
     *,
-    on: str = "core",
+    on: str = "auto",
     precision: str | None = None,
     threads: int = 0,
 ) -> dict[str, npt.NDArray[Any]]:
@@ -177,9 +177,10 @@ def evaluate(
     variables : str or list of str, optional
         Names of ``scene.variables()``. Default: what a sweep of the scene keeps.
     on : str
-        "core", "vulkan" (the best device) or the name of a device.
+        "auto" (the default: a GPU, or a CPU driver that is expected to be faster, where the core needs more than a second), "core",
+        "vulkan" (the best device) or the name of a device.
     precision : {"float", "double"}, optional
-        Default: double on the core, float on a device.
+        Default: double on the core and with "auto", float on a device that is named.
     threads : int
         Of the core; 0: all.
 
@@ -214,6 +215,8 @@ def evaluate(
     of = as_scene(scene)
     number = vessel_number(of, vessel)
     check_types("evaluate", on, precision, threads=threads)
-    found, _ = _core.evaluate(of._core, number, grip_columns(grips), names_of(variables), on, precision, threads)
-    warn(of._core.float_notes(precision, on))
+    if on == "auto" and precision is None:
+        precision = "double"  # else the type of the arrays would depend on their length
+    found, chosen = _core.evaluate(of._core, number, grip_columns(grips), names_of(variables), on, precision, threads)
+    warn(of._core.float_notes(precision, chosen))
     return found

@@ -293,7 +293,7 @@ def grip(
     fills_ml: float | Sequence[float] | None = None,
     tilts: float | Sequence[float] | None = None,
     tilts_deg: float | Sequence[float] | None = None,
-    on: str = "core",
+    on: str = "auto",
     precision: str | None = None,
     quality: bool = False,
 ) -> Grip:
@@ -320,7 +320,7 @@ def grip(
     tilts, tilts_deg : float or list of float, optional
         The tilts of the states: rad, as ``scene.tilts`` has them, or degrees. Default: the scene's.
     on : str
-        "core", "vulkan" or the name of a device.
+        "auto" (the default: the core, as one grip is too little for a device), "core", "vulkan" or the name of a device.
     precision : {"float", "double"}, optional
         Default: double on the core, float on a device.
     quality : bool
@@ -368,5 +368,5 @@ def grip(
         tilts_deg = [one * (180 / math.pi) for one in _list(tilts, "tilts") or []]
     states = [_list(values, name) for name, values in (("fills", fills), ("fills_ml", fills_ml), ("tilts_deg", tilts_deg))]
     made = Grip(of, number, asked, *states, on, precision, quality)
-    warn(of._core.float_notes(precision, on))
+    warn(of._core.float_notes(precision, "core" if on == "auto" else on))
     return made

@@ -74,8 +74,8 @@ def sweep(
     ----------
     scene : Scene, or what ``wh.scene`` takes
     on : str
-        "auto" (the default: core or device, whichever ended such sweeps sooner), "core", "vulkan" (the best device) or the name of
-        a device.
+        "auto" (the default: a GPU, or a CPU driver that is expected to be faster, where the core needs more than a second), "core",
+        "vulkan" (the best device) or the name of a device.
     precision : {"float", "double"}, optional
         Default: double on the core, float on a device.
     best : int, optional

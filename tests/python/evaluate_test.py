@@ -187,6 +187,18 @@ class Evaluate(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r'^a device was opened before this process was forked.*"spawn" 5\n$')
 
+    def test_auto_leaves_few_grips_to_the_core_and_takes_many_to_the_device(self):
+        scene = wh.scene("three_beakers")
+        heights = np.linspace(0.02, 0.1, 60_000)  # some four seconds of one thread of the core
+        for count, wanted in ((100, "core"), (60_000, "vulkan")):
+            columns = wh._evaluate.grip_columns({"height": heights[:count]})
+            _, chosen = wh._core.evaluate(scene._core, 0, columns, ["gap"], "auto", "double", 1)
+            self.assertEqual(chosen, wanted)
+        found = wh.evaluate(scene, 0, {"height": heights}, "gap", threads=1)["gap"]
+        self.assertEqual(found.dtype, np.float64, "of any number of grips")
+        few = wh.evaluate(scene, 0, {"height": heights[::600]}, "gap", on="core")["gap"]
+        np.testing.assert_allclose(found[::600], few, rtol=1e-9)
+
     def test_no_grips_and_no_variables(self):
         scene = wh.scene(SEVERAL)
         found = wh.evaluate(scene, "low", np.zeros((0, 6)), ["score", "joints", "torque"])
@@ -299,7 +311,7 @@ class Evaluate(InFolder):
             "    os.kill(os.getpid(), signal.SIGINT)\n"
             "threading.Timer(0.5, interrupt).start()\n"
             "try:\n"
-            "    wh.evaluate(scene, 0, {'height': np.broadcast_to(height, count)}, name)\n"
+            "    wh.evaluate(scene, 0, {'height': np.broadcast_to(height, count)}, name, on='core')\n"
             "except KeyboardInterrupt:\n"
             "    print((time.process_time() - used[0]) / len(os.sched_getaffinity(0)))\n"
         )
@@ -317,7 +329,7 @@ class Evaluate(InFolder):
             "wh.evaluate(scene, 0, {'height': [0.06]}, 'effort')\n"
             "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
             "try:\n"
-            "    wh.evaluate(scene, 0, grips, 'worst_effort')\n"
+            "    wh.evaluate(scene, 0, grips, 'worst_effort', on='core')\n"
             "except KeyboardInterrupt:\n"
             "    print('stopped', len(wh.evaluate(scene, 0, {'height': [0.06]}, 'worst_effort')))\n"
         )

@@ -128,5 +128,17 @@ TEST(Closing, TimesAddUp) {
   EXPECT_NE(text.find("; peak memory "), std::string::npos);
 }
 
+TEST(Closing, TheLastLineSaysWhatComputed) {
+  BackendInfo info;
+  info.backend = "core";
+  info.device = "core, 2 threads";
+  EXPECT_EQ(backend_line(info, {1.44, 1, 0, 0}, "; a device would not"),
+            "computed on the CPU core, double, in 1.4 s; a device would not\n");
+  info = {"vulkan", "llvmpipe", "Mesa", Precision::single, true};
+  EXPECT_EQ(backend_line(info, {1.25, 1, 0, 0}, ""), "computed on Vulkan (llvmpipe, a CPU driver), float, in 1.2 s\n");
+  info.is_cpu = false;
+  EXPECT_EQ(backend_line(info, {1.25, 1, 0, 0}, ""), "computed on Vulkan (llvmpipe), float, in 1.2 s\n");
+}
+
 }  // namespace
 }  // namespace wholehand
