@@ -54,6 +54,16 @@ TEST(Udp, ALongDatagramSaysHowLongItIsAndKeepsToItsRoom) {
   EXPECT_EQ(room, std::string(10, 'x') + std::string(10, '.'));
 }
 
+TEST(Udp, ADatagramToAllOfANetworkNeedsLeave) {
+  UdpSocket socket(AF_INET, "test");
+  const UdpAddress all = loopback("127.255.255.255", 9);
+  errno = 0;
+  EXPECT_FALSE(socket.send({"five!", 5}, all));
+  EXPECT_EQ(errno, EACCES);
+  socket.allow_broadcast();
+  EXPECT_TRUE(socket.send({"five!", 5}, all));
+}
+
 TEST(Udp, APortIsOnesOwn) {
   UdpSocket here(AF_INET, "test"), there(AF_INET, "test");
   ASSERT_EQ(here.bind(loopback()), 0);
