@@ -18,13 +18,6 @@ function(wholehand_together target batch)
   endif()
 endfunction()
 
-# wholehand_heavy_first(LIST): files that include a header of some seconds come first, so in one batch where they are no more than it takes. They
-# then pay for it once. A file that begins to include such a header moves when CMake is next run.
-function(wholehand_heavy_first list)
-  wholehand_split("^#include <(nlohmann/json|tiny_gltf)[.]h" heavy others ${${list}})
-  set(${list} ${heavy} ${others} PARENT_SCOPE)
-endfunction()
-
 # wholehand_grouped(TARGET): files with the same source property UNITY_GROUP are compiled as one.
 function(wholehand_grouped target)
   if(WHOLEHAND_BUILD_SPEED)
