@@ -39,18 +39,6 @@ function(wholehand_precompiled_by target other)
   endif()
 endfunction()
 
-# wholehand_shared_headers(TARGET): the headers that most folders include, precompiled once for all of them.
-function(wholehand_shared_headers target)
-  if(NOT TARGET shared_headers)
-    file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/shared_headers.cpp" CONTENT "")
-    add_library(shared_headers OBJECT "${PROJECT_BINARY_DIR}/shared_headers.cpp")
-    target_link_libraries(shared_headers PRIVATE fmt::fmt)
-    wholehand_hidden(shared_headers)
-    wholehand_precompile(shared_headers <fmt/format.h> <algorithm> <string> <vector>)
-  endif()
-  wholehand_precompiled_by(${target} shared_headers)
-endfunction()
-
 # wholehand_quick_build(TARGET ...): nobody waits for its speed, but everybody for its compilation.
 function(wholehand_quick_build)
   foreach(target IN LISTS ARGN)

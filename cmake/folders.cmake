@@ -25,13 +25,13 @@ function(wholehand_floor folder result)
   message(FATAL_ERROR "The folder ${folder}/ has no floor: name it in WHOLEHAND_FLOORS (cmake/folders.cmake)")
 endfunction()
 
-# wholehand_folder(NAME [USES FOLDER ...] [LINKS LIBRARY ...] [EXCEPT FILE ...] [QUICK] [HEADERS HEADER ... | SHARED_HEADERS])
+# wholehand_folder(NAME [USES FOLDER ...] [LINKS LIBRARY ...] [EXCEPT FILE ...] [QUICK] [HEADERS HEADER ...])
 #
 # makes the library NAME of NAME/*.cpp without the EXCEPT files (paths from the folder, may be patterns). USES and LINKS are what its
-# includers need too. The rest is for speed (cmake/build_speed.cmake): QUICK is less optimized (-O1), HEADERS are precompiled for it alone, and
-# SHARED_HEADERS are those that most folders include. Eight files are compiled as one.
+# includers need too. The rest is for speed (cmake/build_speed.cmake): QUICK is less optimized (-O1), and HEADERS are precompiled. Eight files are
+# compiled as one.
 function(wholehand_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 folder "QUICK;SHARED_HEADERS" "" "USES;LINKS;HEADERS;EXCEPT")
+  cmake_parse_arguments(PARSE_ARGV 1 folder "QUICK" "" "USES;LINKS;HEADERS;EXCEPT")
   wholehand_floor(${name} floor)
   foreach(lower IN LISTS folder_USES)
     wholehand_floor(${lower} other)
@@ -52,9 +52,7 @@ function(wholehand_folder name)
   if(folder_QUICK)
     wholehand_quick_build(${name})
   endif()
-  if(folder_SHARED_HEADERS)
-    wholehand_shared_headers(${name})
-  elseif(folder_HEADERS)
+  if(folder_HEADERS)
     wholehand_precompile(${name} ${folder_HEADERS})
   endif()
   wholehand_together(${name} 8)

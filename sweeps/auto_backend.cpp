@@ -13,6 +13,7 @@
 #include "sweeps/mark.h"
 #include "sweeps/plan.h"
 #include "sweeps/sweep_result.h"
+#include "system/files.h"
 #include "system/output.h"
 #include "system/readable.h"
 
