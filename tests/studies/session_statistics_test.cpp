@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -302,6 +303,19 @@ TEST(PaperSample, VesselsOfAScene) {
   EXPECT_THROW(session_vessels(scene), Error);
   for (VesselData& vessel : scene.vessels) vessel.liquid_name.clear();
   EXPECT_THROW(session_vessels(scene), Error);
+}
+
+// With replacement five of fifty would be five different ones in two of three draws.
+TEST(PaperSample, ALargePopulationHasNobodyDrawnTwice) {
+  std::uint64_t state = 1;
+  bool has_twice = false;
+  for (int k = 0; k < 50; ++k) {
+    const std::vector<std::size_t> large = draw_members(5, 5 * MANY_SAMPLES, state),
+                                   small = draw_members(5, 5 * MANY_SAMPLES - 1, state);
+    EXPECT_EQ(std::set<std::size_t>(large.begin(), large.end()).size(), 5u);
+    has_twice |= std::set<std::size_t>(small.begin(), small.end()).size() < 5;
+  }
+  EXPECT_TRUE(has_twice) << "of a smaller one, with replacement";
 }
 
 }  // namespace
