@@ -3,12 +3,6 @@
 # less optimization. The preset `plain` goes without the first two, so that every file is seen to include what it needs.
 option(WHOLEHAND_BUILD_SPEED "Compile some files at a time, with precompiled headers" ON)
 
-# GCC looks for memory to free whenever its heap has doubled, so first when it has just read precompiled headers. Up to 512 MiB it need not:
-# a compiler then takes a twentieth less time, and at most 150 MB more (docs/results, "A bare Debian 12").
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  add_compile_options(--param=ggc-min-heapsize=524288)
-endif()
-
 # wholehand_together(TARGET N): N files are compiled as one; 0: all of them. Names in their anonymous namespaces must not clash.
 function(wholehand_together target batch)
   if(WHOLEHAND_BUILD_SPEED)
