@@ -12,9 +12,12 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/gather.h"
 #include "evidence/error_measure.h"
+#include "evidence/error_reference.h"
 #include "evidence/error_table.h"
 #include "evidence/error_variants.h"
 #include "scene/reader.h"
@@ -336,6 +339,24 @@ TEST(ErrorTime, CommandRefusesBadInput) {
 }
 
 #endif
+
+TEST(ErrorReference, EachJointCounts) {
+  const Scene scene = read_scene_file(find_scene("small"));
+  GripInput grip;
+  grip.height = 55e-3;
+  const ErrorReference reference(scene, {{grip}}, {});
+  ASSERT_EQ(reference.feasible(), 1u);
+  const auto core = make_core_evaluator(scene, reference_options());
+  const GatheredPlanes exact = gather(*core, reference_fields(scene), 0, {grip});
+  for (const auto& [field, quantity] : {std::pair{FIELD_POSED, ERROR_POSED}, {FIELD_PROXIES, ERROR_PROXY}})
+    for (int value = 0; value < 3 * JOINT_COUNT; ++value) {
+      GatheredPlanes moved = exact;
+      moved.reals[exact.fields.plane[field] + value] += 5e-6;
+      ErrorRow row;
+      reference.compare({moved}, *core, row);
+      EXPECT_NEAR(row.errors[quantity].max, 5, 1e-6) << value;
+    }
+}
 
 }  // namespace
 }  // namespace wholehand
