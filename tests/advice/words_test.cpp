@@ -38,6 +38,14 @@ TEST(WayWords, SayEachWholeUnitAndNothingOfLess) {
       {moved(2, 0, 0, 0, -3), "2 mm higher, 3 mm away from you"},
   };
   for (const auto& [to, words] : table) EXPECT_EQ(way_words(moved(0), to), words);
+  const std::string all = way_words(moved(0), moved(8, 12, 5, 20, 3));
+  std::size_t last = 0;
+  for (const char* part : {"8 mm higher", ", wrist 12", ", index finger 5", ", around by 20", ", 3 mm"}) {
+    const std::size_t at = all.find(part);
+    ASSERT_NE(at, all.npos) << part << " in " << all;
+    EXPECT_GE(at, last) << all;
+    last = at;
+  }
   // a line that runs backwards has the other side towards the user
   EXPECT_EQ(way_words(moved(0, 0, 0, 180), moved(0, 0, 0, 180, 3)), "3 mm away from you");
 }

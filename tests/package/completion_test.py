@@ -113,6 +113,10 @@ SHOW = r"""wholehand() { printf '<''<'; printf '%s|' "$@"; echo '>''>'; }"""
 
 
 class Bash(unittest.TestCase):
+    def test_terms_are_no_files(self):
+        open(os.path.join(folder.name, "ends."), "w").close()
+        self.assertEqual(bash("wholehand rank none.nc --weights "), [])
+
     def test_commands_and_options_are_those_of_help(self):
         self.assertGreater(len(all_commands()), 15)
         for words in all_commands():
