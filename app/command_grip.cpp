@@ -285,8 +285,7 @@ void add_grip_command(CLI::App& app, Action& action) {
   auto* fill = add("--fill", arguments->fills, "F", "Fills, as fractions of the capacity (default: the scene's)");
   add("--fill-ml", arguments->volumes, "V", "Instead of --fill: fills in mL")->excludes(fill);
   add("--tilt-deg", arguments->tilts, "T", "Tilts (default: the scene's)");
-  add("--on", arguments->on, "DEVICE",
-      "auto (the default) or core: the core, as one grip is too little for a device; vulkan or the name of a device")
+  add("--on", arguments->on, "DEVICE", "auto (the default, means core for one grip), core, vulkan or the name of a device")
       ->check(offered("auto core vulkan"));
   add("--precision", arguments->precision, "P", "float or double (default: double on the core, float on Vulkan)")
       ->check(offered("float double"));

@@ -65,8 +65,7 @@ CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Sweep
   command
       ->add_option("--on", arguments->on,
                    "auto (the default): a GPU, or a CPU driver that is expected to be faster, where the core needs more than a "
-                   "second; core; "
-                   "vulkan: the best device; or the name of a device")
+                   "second; core; vulkan: the best device; or the name of a device")
       ->type_name("DEVICE")
       ->check(offered("auto core vulkan"))
       ->check(not_empty());

@@ -167,7 +167,7 @@ void run_batch(Batch& batch, std::size_t vessel, const GripColumns& grips, const
     throw failure_error(batch.backend->info().device + ": fewer grips came back than were asked for");
 }
 
-// "auto" resolved for so many grips: the core in a process that was forked from one with a device, too.
+// Resolves "auto" for so many grips. A process forked from one with an open device gets the core.
 std::string resolved_backend(const SceneHandle& handle, std::uint64_t grips,
                              const std::optional<std::vector<std::string>>& variables, const std::string& on,
                              const std::optional<std::string>& precision, int threads) {
@@ -194,7 +194,7 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
                    const std::optional<std::string>& precision, int threads) {
   const GripColumns grips(arrays);
   std::string on = resolved_backend(handle, grips.count(), variables, asked_on, precision, threads_of(threads));
-  BatchWish wish{variables, on, precision_of(precision, on), threads_of(threads)};
+  BatchSpec spec{variables, on, precision_of(precision, on), threads_of(threads)};
   check_vessel(handle.described(), vessel);
   std::shared_ptr<Batch> batch;
   const Scene* scene = nullptr;
@@ -202,11 +202,11 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
   with_signals(stop, [&] {
     grips.check(stop);
     try {
-      batch = handle.batch(wish);
+      batch = handle.batch(spec);
     } catch (const Error&) {
       if (asked_on != ON_AUTO || on == "core") throw;
-      wish.on = on = "core";  // where it was not the device, this throws again
-      batch = handle.batch(wish);
+      spec.on = on = "core";  // an error that is not the device's is thrown again
+      batch = handle.batch(spec);
     }
     scene = &handle.whole(on);
   });

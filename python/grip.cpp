@@ -56,20 +56,20 @@ GripNumbers grip_between(const std::array<double, 3>& thumb, const std::array<do
 }
 
 // What is asked beside the grip. Fills are fractions; volumes in mL replace them.
-struct StateWish {
+struct StateSpec {
   std::optional<std::vector<double>> fills, volumes, tilts;
 };
 
-StateAxes axes_of(const StateWish& wish, const Scene& scene, std::size_t vessel) {
+StateAxes axes_of(const StateSpec& spec, const Scene& scene, std::size_t vessel) {
   StateAxes axes = scene_axes(scene, vessel);
-  if (wish.tilts) {
+  if (spec.tilts) {
     axes.tilts.clear();
-    for (const double tilt : *wish.tilts) axes.tilts.push_back(quantity(tilt, "tilts_deg", ranges::TILT));
+    for (const double tilt : *spec.tilts) axes.tilts.push_back(quantity(tilt, "tilts_deg", ranges::TILT));
   }
-  if (!wish.fills && !wish.volumes) return axes;
+  if (!spec.fills && !spec.volumes) return axes;
   // Python's own names, which no rule makes of the options'
-  const char* option = wish.volumes ? "fills_ml" : "fills";
-  if (wish.fills && wish.volumes) throw usage_error("fills and fills_ml are both given; allowed: one of the two");
+  const char* option = spec.volumes ? "fills_ml" : "fills";
+  if (spec.fills && spec.volumes) throw usage_error("fills and fills_ml are both given; allowed: one of the two");
   if (!scene.liquid)
     throw usage_error(
         fmt::format("{0}: {1} has no [liquid]; add one with its fills, or leave {0} out", option, in_quotes(scene.file)));
@@ -77,10 +77,10 @@ StateAxes axes_of(const StateWish& wish, const Scene& scene, std::size_t vessel)
     throw usage_error(fmt::format("{}: {} has no [tilts]; give tilts_deg too", option, in_quotes(scene.file)));
   axes.fills.clear();
   const VesselData& held = scene.vessels[vessel];
-  for (const double fill : wish.fills.value_or(std::vector<double>{}))
+  for (const double fill : spec.fills.value_or(std::vector<double>{}))
     axes.fills.push_back(quantity(fill, option, ranges::FRACTION));
-  axes.capacity = wish.volumes ? capacity_of(held) : 0;
-  for (const double volume : wish.volumes.value_or(std::vector<double>{}))
+  axes.capacity = spec.volumes ? capacity_of(held) : 0;
+  for (const double volume : spec.volumes.value_or(std::vector<double>{}))
     axes.fills.push_back(fraction_of_capacity(held, axes.capacity, quantity(volume, option, ranges::FILL_VOLUME),
                                               fmt::format("{} {}", option, volume)));
   return axes;
@@ -89,10 +89,10 @@ StateAxes axes_of(const StateWish& wish, const Scene& scene, std::size_t vessel)
 // A grip's report, and the scene that its drawings need.
 class GripHandle {
  public:
-  GripHandle(Scene scene, std::size_t vessel, const GripInput& grip, const StateWish& wish, const std::string& on,
+  GripHandle(Scene scene, std::size_t vessel, const GripInput& grip, const StateSpec& spec, const std::string& on,
              Precision precision, bool has_quality)
       : scene_(std::move(scene)), vessel_(vessel) {
-    const StateAxes axes = axes_of(wish, scene_, vessel);
+    const StateAxes axes = axes_of(spec, scene_, vessel);
     read_meshes(grip, on);
     report_ = make_grip_report(scene_, vessel, grip, axes, open_grip_methods(scene_, on, precision));
     add_holding(report_, scene_, vessel);
@@ -145,9 +145,9 @@ std::unique_ptr<GripHandle> make_grip(const SceneHandle& handle, std::size_t ves
   const GripInput grip = input_of(numbers);
   check_grip(grip, "the grip");
   if (vessel >= handle.described().vessels.size()) throw usage_error("the scene has no vessel of this number");
-  const StateWish wish{std::move(fills), std::move(volumes), std::move(tilts)};
+  const StateSpec spec{std::move(fills), std::move(volumes), std::move(tilts)};
   const py::gil_scoped_release other_threads;
-  return std::make_unique<GripHandle>(handle.described(), vessel, grip, wish, on, precision_of(precision, on), has_quality);
+  return std::make_unique<GripHandle>(handle.described(), vessel, grip, spec, on, precision_of(precision, on), has_quality);
 }
 
 }  // namespace

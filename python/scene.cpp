@@ -81,19 +81,19 @@ std::shared_ptr<const Evaluator> SceneHandle::core() {
   return core_;
 }
 
-std::shared_ptr<Batch> SceneHandle::batch(const BatchWish& wish) {
+std::shared_ptr<Batch> SceneHandle::batch(const BatchSpec& spec) {
   const std::lock_guard lock(mutex_);
-  const auto found = std::find_if(batches_.begin(), batches_.end(), [&](const auto& kept) { return kept.first == wish; });
+  const auto found = std::find_if(batches_.begin(), batches_.end(), [&](const auto& kept) { return kept.first == spec; });
   if (found != batches_.end()) {
     batches_.splice(batches_.begin(), batches_, found);
     return batches_.front().second;
   }
-  const Scene& scene = whole_locked(wish.on);
+  const Scene& scene = whole_locked(spec.on);
   auto made = std::make_shared<Batch>();
-  made->variables = wish.variables ? named_variables(scene, *wish.variables, "variables") : choose_variables(scene);
+  made->variables = spec.variables ? named_variables(scene, *spec.variables, "variables") : choose_variables(scene);
   const FieldSet fields = make_field_set(variable_fields(made->variables), scene);
-  made->backend = open_backend(scene, fields, wish.on, wish.precision, wish.threads);
-  batches_.emplace_front(wish, made);
+  made->backend = open_backend(scene, fields, spec.on, spec.precision, spec.threads);
+  batches_.emplace_front(spec, made);
   if (batches_.size() > KEPT_BATCHES) batches_.pop_back();
   return made;
 }

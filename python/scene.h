@@ -25,13 +25,13 @@ struct Batch {
   std::timed_mutex in_use;
 };
 
-// What a batch is asked for. `variables` absent: those that a sweep of the scene keeps.
-struct BatchWish {
+// What a batch computes, and where. `variables` absent: those that a sweep of the scene keeps.
+struct BatchSpec {
   std::optional<std::vector<std::string>> variables;
   std::string on = "core";
   Precision precision = Precision::full;
   int threads = 0;
-  bool operator==(const BatchWish&) const = default;
+  bool operator==(const BatchSpec&) const = default;
 };
 
 // Every method may be called from any thread, without the interpreter's lock.
@@ -45,8 +45,8 @@ class SceneHandle {
   const Scene& whole(const std::string& on = "core");
   // The reference evaluator of the whole scene.
   std::shared_ptr<const Evaluator> core();
-  // Kept for the same wish, a few of them.
-  std::shared_ptr<Batch> batch(const BatchWish& wish);
+  // Keeps the backends of the last few specs.
+  std::shared_ptr<Batch> batch(const BatchSpec& spec);
   // What the program would print about the scene on standard error, a line each.
   std::vector<std::string> notes();
   // The same of float's domain, with the remedy; empty in double.
@@ -63,7 +63,7 @@ class SceneHandle {
   std::vector<std::string> mesh_notes_;
   std::shared_ptr<const Evaluator> core_;
   std::optional<std::vector<std::string>> float_notes_;
-  std::list<std::pair<BatchWish, std::shared_ptr<Batch>>> batches_;  // the latest first
+  std::list<std::pair<BatchSpec, std::shared_ptr<Batch>>> batches_;  // the latest first
 };
 
 // The variables of these names, in their order. `place` begins the line where one is unknown or the scene lacks what it needs:

@@ -17,7 +17,7 @@ namespace py = pybind11;
 namespace wholehand {
 namespace {
 
-struct SweepWish {
+struct SweepSpec {
   std::string output, on;
   std::optional<std::string> precision;
   std::optional<int> best;
@@ -26,15 +26,15 @@ struct SweepWish {
   bool refine = true, resume = false;
 };
 
-SweepOptions options_of(const SweepWish& wish, std::vector<std::string>& notes) {
+SweepOptions options_of(const SweepSpec& spec, std::vector<std::string>& notes) {
   SweepOptions options;
-  options.output = wish.output;
-  options.on = wish.on;
-  if (wish.precision) options.precision = parse_precision(*wish.precision);
-  if (wish.best) options.best = static_cast<int>(parse_integer(std::to_string(*wish.best), "--best", ranges::BEST));
-  options.threads = threads_of(wish.threads);
-  options.refine = wish.refine;
-  options.resume = wish.resume;
+  options.output = spec.output;
+  options.on = spec.on;
+  if (spec.precision) options.precision = parse_precision(*spec.precision);
+  if (spec.best) options.best = static_cast<int>(parse_integer(std::to_string(*spec.best), "--best", ranges::BEST));
+  options.threads = threads_of(spec.threads);
+  options.refine = spec.refine;
+  options.resume = spec.resume;
   options.note = [&notes](const std::string& line) { notes.push_back(line); };
   options.warn = [&notes](const Scene& scene, Precision precision) {
     for (const std::string& line : domain_warnings(scene, precision))
@@ -48,18 +48,18 @@ SweepOptions options_of(const SweepWish& wish, std::vector<std::string>& notes) 
 py::tuple sweep(const SceneHandle& handle, const std::string& output, const std::string& on, std::optional<std::string> precision,
                 std::optional<int> best, std::optional<std::vector<std::string>> keep, int threads, bool refine, bool resume) {
   prepare_device(on);
-  const SweepWish wish{output, on, std::move(precision), best, std::move(keep), threads, refine, resume};
+  const SweepSpec spec{output, on, std::move(precision), best, std::move(keep), threads, refine, resume};
   std::vector<std::string> notes;
   ExitCode code = ExitCode::done;
   {
     const py::gil_scoped_release other_threads;
     Scene scene = handle.described();
-    if (wish.keep) {
-      named_variables(scene, *wish.keep, "keep");
-      scene.output.keep = wish.keep;
+    if (spec.keep) {
+      named_variables(scene, *spec.keep, "keep");
+      scene.output.keep = spec.keep;
       scene.output.keep_place = "keep";
     }
-    code = run_sweep(scene, options_of(wish, notes));
+    code = run_sweep(scene, options_of(spec, notes));
   }
   // one that came in the ending left the sweep whole, and is Python's all the same
   return py::make_tuple(code != ExitCode::interrupted, InterruptGuard::signal_number(), notes);

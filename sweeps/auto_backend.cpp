@@ -52,10 +52,10 @@ struct Cost {
   double reserve;  // and of the three that are kept on request
 };
 constexpr Cost CORE{0.3, 22e-6, 18e-6, 67e-6}, CPU_DRIVER{0.9, 4.7e-6, 11e-6, 32e-6};
-constexpr double EFFORT_STATES = 100, RESERVE_STATES = 300;  // with so many states, efforts and reserves cost twice as much
+constexpr double EFFORT_STATES = 100, RESERVE_STATES = 300;  // states at which the cost of efforts and of reserves doubles
 constexpr double ROBUST = 1;                                 // s of one thread, for the deviations of the lists
-constexpr double DOUBLE = 1.8;                               // times as long as float, on a CPU driver
-constexpr int DRIVER_THREADS = 32;                           // llvmpipe takes no more
+constexpr double DOUBLE = 1.8;                               // cost of a grip in double over float, on a CPU driver
+constexpr int DRIVER_THREADS = 32;                           // most that llvmpipe uses
 
 double seconds_of(const Cost& cost, const Workload& work, int threads) {
   const auto states = static_cast<double>(work.states);

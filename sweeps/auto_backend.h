@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a sweep runs that leaves this to the program (`--on auto`). The rule: docs/method.md, "Core or device".
+// Chooses core or device for `--on auto`, by the rule of docs/method.md, "Core or device".
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace wholehand {
 
 inline constexpr const char* ON_AUTO = "auto";
 
-// What decides how long grips take.
+// What determines how long a sweep takes.
 struct Workload {
   std::uint64_t grips = 0;  // of all vessels
   std::size_t states = 0;   // of each grip
@@ -30,23 +30,23 @@ struct Workload {
 
 Workload workload_of(const Scene& scene, const std::vector<const Variable*>& variables, std::uint64_t grips);
 
-// s that they take: on so many threads of the core, and on llvmpipe with so many threads once its kernels are compiled.
+// Expected seconds on the core, and on llvmpipe once its kernels are compiled.
 double core_seconds(const Workload& work, int threads);
 double cpu_driver_seconds(const Workload& work, int threads, Precision precision);
 
-// Whether a device may be chosen: the core needs a second or more. A device takes about as long to open and to fill.
+// Whether the core needs a second or more. Opening a device takes about as long.
 bool pays_for_device(const Workload& work, int threads);
 
 struct BackendChoice {
   std::string on = "core";  // or "vulkan"
-  std::string alternative;  // what the other would take or lacks, the second half of a sentence
+  std::string alternative;  // what the other would take or lacks; completes the sentence of backend_line
 };
 
-// The best device of `devices` or the core. `threads` of the core, 0: all. `precision`: what is asked for, if anything.
+// Chooses the core or the best of `devices`. `threads` is for the core; 0 means all. `precision` is absent where the user names none.
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
                              const std::vector<host::DeviceInfo>& devices);
 
-// Chooses among the devices of this machine, which are listed only where one may be chosen. A machine without any has the core. Never throws.
+// Chooses among the devices of this machine, which are listed only where one may be chosen. Falls back to the core where there is none. Does not throw.
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision);
 
 // Decides when it is made, before meshes are read; `options.on` then says core or a device, and `options.alternative` what the other would take.

@@ -50,7 +50,7 @@ std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
 // The files with the size of the first, the times, and what the process took: CPU seconds and its largest memory.
 std::string closing_lines(const std::vector<std::string>& files, const SweepTimes& times);
 
-// The sentence that says what computed a sweep of `--on auto`, in what time, and then `alternative`: "; the core would take ..".
+// One sentence: the backend that `--on auto` chose, the sweep's time, and `alternative`, such as "; the core would take ..".
 std::string backend_line(const BackendInfo& info, const SweepTimes& times, const std::string& alternative);
 
 }  // namespace wholehand

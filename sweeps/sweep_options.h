@@ -33,7 +33,7 @@ struct SweepOptions {
   // Takes the notes beside the work, a line each. Where it is set, the sweep is part of another program: nothing is printed, and no progress is
   // shown. Empty: notes go to standard error.
   std::function<void(const std::string&)> note = {};
-  // Where the program chose the backend: what the other would take, the second half of a sentence that the closing lines begin.
+  // What the backend that was not chosen would take; completes the sentence of backend_line. Empty unless `on` was ON_AUTO.
   std::string alternative = {};
   std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
   // Scores of one vessel's grips that are kept for further passes, 8 B each; of more grips each pass evaluates all of them again.

@@ -72,7 +72,7 @@ TEST(AutoBackend, ACpuDriverTakesWhatItEndsSooner) {
     EXPECT_NE(choice.alternative.find(" once its kernels are compiled (`--on vulkan`)"), std::string::npos) << choice.alternative;
   }
   EXPECT_TRUE(was_faster && was_slower);
-  EXPECT_LT(core_seconds(LARGE, 64), core_seconds(LARGE, 1) / 30) << "threads count";
+  EXPECT_LT(core_seconds(LARGE, 64), core_seconds(LARGE, 1) / 30) << "more threads take less time";
 }
 
 TEST(AutoBackend, WorkGrowsWithStatesAndWhatIsKept) {
@@ -85,7 +85,7 @@ TEST(AutoBackend, WorkGrowsWithStatesAndWhatIsKept) {
   EXPECT_GT(cpu_driver_seconds(more, 2, Precision::single), cpu_driver_seconds(LARGE, 2, Precision::single));
   EXPECT_GT(cpu_driver_seconds(LARGE, 2, Precision::full), cpu_driver_seconds(LARGE, 2, Precision::single));
   EXPECT_EQ(cpu_driver_seconds(LARGE, 128, Precision::single), cpu_driver_seconds(LARGE, 64, Precision::single))
-      << "its threads end";
+      << "llvmpipe uses at most 32 threads";
   const Scene scene = read_scene_file(find_scene("three_beakers"));
   const Workload work = workload_of(scene, choose_variables(scene), 27'648);
   EXPECT_EQ(work.states, scene_fills(scene) * scene.tilts.size());
@@ -104,7 +104,7 @@ TEST(AutoBackend, ADeviceWithoutDoublesIsNotChosenForThem) {
   EXPECT_EQ(choose(LARGE, small, Precision::full).on, "core");
   EXPECT_EQ(choose(LARGE, small, Precision::full).alternative, "; a small GPU has no double precision");
   EXPECT_EQ(choose(LARGE, small, Precision::single).on, "vulkan");
-  EXPECT_EQ(choose(LARGE, small).on, "vulkan") << "the usual one is float";
+  EXPECT_EQ(choose(LARGE, small).on, "vulkan") << "a device computes in float by default";
   EXPECT_EQ(choose(LARGE, device("a GPU", host::DeviceKind::integrated), Precision::full).on, "vulkan");
 }
 
@@ -123,7 +123,7 @@ class AutoBackendTest : public testing::Test {
     options_.note = [this](const std::string& line) { notes_ += line + "\n"; };
   }
 
-  // So many grips that any device pays.
+  // Enough grips that any device pays off.
   static Scene large_scene() {
     Scene scene = read_scene_file(find_scene("three_beakers"));
     scene.grips.sampling = Sampling::sobol;
@@ -192,7 +192,7 @@ TEST_F(AutoBackendTest, WhatTheCoreRefusesTooIsNoFaultOfTheDevice) {
   AutoBackend other(scene, options_);
   EXPECT_EQ(other.or_on_core([&] { return options_.on == "core" ? 7 : throw usage_error("it is too large"); }), 7);
   EXPECT_EQ(notes_, "on core, since the device does not work: it is too large\n");
-  EXPECT_EQ(options_.alternative, "") << "it was said";
+  EXPECT_EQ(options_.alternative, "") << "the note replaces the closing sentence";
 }
 
 // Doubles of the core take more room than the floats of the device, with which the sweep was let in.
