@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 # Compiles compute shaders to SPIR-V, optimizes and embeds them.
 #
-#   embed_shaders(TARGET HEADER FUNCTION GLOB ... [DEFINES NAME ...])
+#   embed_shaders(TARGET HEADER FUNCTION GLOB ... [WIDE] [DEFINES NAME ...])
 #
 # makes a static library TARGET that defines FUNCTION, declared in HEADER as
 #   std::span<const EmbeddedShader> FUNCTION();
-# with an entry for every matching .comp in float and in double, and, where it or a file it includes mentions OUTLINE_SOURCE, for every
-# source of the outline. A shader is compiled again when a file that it includes changes: glslangValidator writes the dependencies.
+# with an entry for every matching .comp in float and in double, where it or a file it includes mentions build.glsl in both
+# builds, and where OUTLINE_SOURCE is mentioned for every source of the outline. A shader is compiled again when a file that it
+# includes changes: glslangValidator writes the dependencies.
 
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
@@ -16,12 +17,12 @@ find_program(SPIRV_DIS spirv-dis REQUIRED)
 set(SHADER_PASSES --loop-unroll --ccp --eliminate-dead-branches --merge-blocks --eliminate-dead-code-aggressive)
 set(SHADER_TARGET_ENV vulkan1.3)  # group sizes are LocalSizeId then: the device enables maintenance4
 
-# Sets `result` to whether the file or what it includes, at any depth, mentions OUTLINE_SOURCE. The answer is taken when configuring,
-# so the files are watched and a change configures again.
-function(shader_reads_outline file result)
+# Sets `result` to those of the words that the file or what it includes, at any depth, has in it. The answer is taken when configuring, so the
+# files are watched and a change configures again.
+function(shader_mentions file result)
   set(pending "${file}")
   set(seen "")
-  set(found FALSE)
+  set(found "")
   while(pending)
     list(POP_FRONT pending current)
     if(current IN_LIST seen OR NOT EXISTS "${current}")
@@ -29,10 +30,12 @@ function(shader_reads_outline file result)
     endif()
     list(APPEND seen "${current}")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${current}")
-    file(STRINGS "${current}" mentions REGEX "OUTLINE_SOURCE")
-    if(mentions)
-      set(found TRUE)
-    endif()
+    foreach(word IN LISTS ARGN)
+      file(STRINGS "${current}" mentions REGEX "${word}")
+      if(mentions)
+        list(APPEND found "${word}")
+      endif()
+    endforeach()
     cmake_path(GET current PARENT_PATH here)
     file(STRINGS "${current}" includes REGEX "^[ \t]*#[ \t]*include[ \t]*\"")
     foreach(line IN LISTS includes)
@@ -40,11 +43,11 @@ function(shader_reads_outline file result)
       list(APPEND pending "${here}/${name}" "${PROJECT_SOURCE_DIR}/${name}" "${PROJECT_SOURCE_DIR}/shaders/${name}")
     endforeach()
   endwhile()
-  set(${result} ${found} PARENT_SCOPE)
+  set(${result} "${found}" PARENT_SCOPE)
 endfunction()
 
 function(embed_shaders target header function)
-  cmake_parse_arguments(PARSE_ARGV 3 embed "" "" "DEFINES")
+  cmake_parse_arguments(PARSE_ARGV 3 embed "WIDE" "" "DEFINES")
   file(GLOB shaders CONFIGURE_DEPENDS ${embed_UNPARSED_ARGUMENTS})
   list(TRANSFORM embed_DEFINES PREPEND "-D")
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}.dir")
@@ -54,15 +57,27 @@ function(embed_shaders target header function)
   set(outputs "")
   foreach(shader IN LISTS shaders)
     cmake_path(GET shader STEM stem)
-    shader_reads_outline("${shader}" reads_outline)
-    set(sources -1)
-    if(reads_outline)
-      set(sources 0 1 2)
+    shader_mentions("${shader}" mentions build.glsl OUTLINE_SOURCE)
+    set(variants "-1,-1")  # build and source of the outline
+    if("OUTLINE_SOURCE" IN_LIST mentions)
+      set(variants 0,0 0,1 1,0)
+    elseif("build.glsl" IN_LIST mentions)
+      set(variants 0,-1 1,-1)
+    endif()
+    if(embed_WIDE)
+      list(FILTER variants EXCLUDE REGEX "^1,")
     endif()
     foreach(precision 0 1)
-      foreach(outline IN LISTS sources)
+      foreach(variant IN LISTS variants)
+        string(REPLACE "," ";" parts "${variant}")
+        list(GET parts 0 build)
+        list(GET parts 1 outline)
         set(name "${stem}_${precision}")
         set(defines -DREAL_IS_DOUBLE=${precision} ${embed_DEFINES})
+        if(NOT build EQUAL -1)
+          string(APPEND name "_${build}")
+          list(APPEND defines -DSMALL=${build})
+        endif()
         if(NOT outline EQUAL -1)
           string(APPEND name "_${outline}")
           list(APPEND defines -DOUTLINE_SOURCE=${outline})
@@ -84,7 +99,7 @@ function(embed_shaders target header function)
           VERBATIM)
         list(APPEND outputs "${output}")
         string(APPEND includes "#include \"${target}.dir/${name}.h\"\n")
-        string(APPEND rows "    {\"${stem}\", ${precision}, ${outline}, ${name}},\n")
+        string(APPEND rows "    {\"${stem}\", ${precision}, ${build}, ${outline}, ${name}},\n")
       endforeach()
     endforeach()
   endforeach()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One grip through kernels 3, 4, 5, 8 and 11: the core's way of putting the leaf functions together. The shaders put the same leaves together
-// in shaders/grip.comp, streamed.
+// in shaders/closure.comp, rest.comp, contact.comp and overlap.comp.
 #pragma once
 
 #include <array>

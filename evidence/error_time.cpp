@@ -39,10 +39,11 @@ void choose_device_part(const Scene& scene, const std::string& on, VariantChoice
   choice.device = true;
   choice.device_double = device.float64;
   if (!device.float64) context.notes.push_back(device.name + " has no double precision: Vulkan double is left out");
-  choice.outline_constants = std::all_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) {
+  choice.outline_copies = std::all_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) {
     return prepare_vessel(vessel, vessel.has_cavity()).outline.size() <= MAX_OUTLINE;
   });
-  choice.device_outlines = choice.outline_constants || device.kind != host::DeviceKind::cpu;
+  choice.device_outlines = choice.outline_copies || !host::is_llvmpipe(device);
+  choice.outline_copies = choice.outline_copies && host::is_llvmpipe(device);
   if (!choice.device_outlines) {
     context.notes.push_back(
         fmt::format("{} does not take outlines of more than {} elements: its variants with such an outline are left out",

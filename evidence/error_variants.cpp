@@ -169,17 +169,12 @@ class VariantList {
 
   // What the device's pipelines carry of the outline.
   void pipelines() {
-    if (!choice_.device_outlines || !choice_.outline_constants) return;
+    if (!choice_.device_outlines || !choice_.outline_copies) return;
     for (const VariantSide& side : device_) {
       if (quick() && side.precision == Precision::full) continue;
-      if (!quick()) {
-        ErrorVariant& hoisted = add(side, "outline from a uniform block");
-        hoisted.outline = OUTLINE_HOISTED;
-        hoisted.left_out = "specialized coordinates";
-      }
       ErrorVariant& buffer = add(side, "outline from a buffer");
       buffer.outline = OUTLINE_BUFFER;
-      buffer.left_out = "specialized count and coordinates";
+      buffer.left_out = "the copied outline";
     }
   }
 

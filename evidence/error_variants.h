@@ -28,7 +28,7 @@ struct ErrorVariant {
   bool on_core = true;
   Precision precision = Precision::full;
   int threads = 0;  // of the core
-  OutlineSource outline = OUTLINE_SPECIALIZED;
+  OutlineSource outline = OUTLINE_COPIED;
   EvaluatorOptions options;
   std::string left_out;                // what it leaves out of the scene or the pipelines; "+ .." what it leaves in
   std::shared_ptr<const Scene> scene;  // null: the scene as it is
@@ -43,11 +43,11 @@ struct ErrorVariant {
 
 struct VariantChoice {
   bool quick = false;
-  int threads = 1;                 // all that the core may take
-  bool device = false;             // a Vulkan device too
-  bool device_double = false;      // .. in double precision
-  bool device_outlines = false;    // .. whose loops take these outlines
-  bool outline_constants = false;  // .. which fit its pipelines' constants
+  int threads = 1;               // all that the core may take
+  bool device = false;           // a Vulkan device too
+  bool device_double = false;    // .. in double precision
+  bool device_outlines = false;  // .. whose loops take these outlines
+  bool outline_copies = false;   // .. and whose kernels copy them
 };
 
 // What the others are compared with: the core in double, the exact outline, the tightest tolerances.

@@ -36,6 +36,8 @@ const DeviceInfo* first_usable(const std::vector<DeviceInfo>& devices, const std
 
 }  // namespace
 
+bool is_llvmpipe(const DeviceInfo& device) { return device.kind == DeviceKind::cpu && device.name.starts_with("llvmpipe"); }
+
 const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, std::string_view selector) {
   constexpr std::string_view PREFIX = "vulkan";
   const DeviceInfo* chosen = nullptr;

@@ -65,6 +65,9 @@ struct DeviceOptions {
   std::string cache_folder{};  // of compiled pipelines; empty: $XDG_CACHE_HOME/wholehand, and none for a CPU driver
 };
 
+// Whether it is Mesa's CPU driver, which takes the wide build of the kernels (shaders/build.glsl).
+bool is_llvmpipe(const DeviceInfo& device);
+
 // Every device there, in the loader's order. Throws Error: no loader, no driver, no validation layer.
 std::vector<DeviceInfo> list_devices(const DeviceOptions& options = {});
 

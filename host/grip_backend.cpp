@@ -186,13 +186,13 @@ struct GripBackend::Impl {
   };
 
   template <class Real>
-  StreamRequest buffers_for(const Selection& selection) const {
+  StreamRequest buffers_for(const Selection& selection) {
     const int real_kept = selection.on_host ? std::max(fields.real_kept, fields.plane[FIELD_SCORE] + 1) : fields.real_kept;
     const int uint_kept = std::max(fields.uint_kept, fields.plane[FIELD_STATUS] + 1);  // which grips are unfinished
     const std::size_t best = selection.best;
     StreamRequest work;
     work.inputs = {{BINDING_GRIPS, GRIP_AXES * sizeof(Real)}};
-    work.outputs = {{BINDING_REAL_OUT, (fields.real_planes + contact_planes(fields)) * sizeof(Real), real_kept * sizeof(Real)},
+    work.outputs = {{BINDING_REAL_OUT, program().real_planes * sizeof(Real), real_kept * sizeof(Real)},
                     {BINDING_UINT_OUT, fields.uint_planes * sizeof(std::uint32_t), uint_kept * sizeof(std::uint32_t)}};
     if (best > 0) {
       // two halves for the passes of the selection, each of groups * best entries
@@ -227,7 +227,6 @@ struct GripBackend::Impl {
   // Grips whose turns ran out on the device.
   std::vector<std::size_t> unfinished_grips(const Chunk& chunk, std::span<const std::uint32_t> uints) const {
     std::vector<std::size_t> unfinished;
-    if (!fields.has(FIELD_STATUS)) return unfinished;
     const std::span<const std::uint32_t> statuses = uints.subspan(fields.plane[FIELD_STATUS] * chunk.stride, chunk.count);
     for (std::size_t i = 0; i < chunk.count; ++i)
       if ((statuses[i] & STATUS_OUT_OF_TURNS) != 0) unfinished.push_back(i);
@@ -285,7 +284,7 @@ struct GripBackend::Impl {
 
   template <class Real>
   RunResult run(const RunRequest& request) {
-    if (!program().vessels[request.vessel].grip) return run_on_core<Real>(request);
+    if (program().vessels[request.vessel].is_on_core()) return run_on_core<Real>(request);
     const bool on_host = request.best > SELECT_LARGEST;
     const Selection selection{on_host, on_host ? 0 : request.best};
     RunResult result;
@@ -395,8 +394,8 @@ GripPipelines GripBackend::pipelines(std::size_t vessel) const {
 const DeviceInfo& GripBackend::device() const { return impl_->program().on.info(); }
 
 std::size_t GripBackend::bytes_per_grip() const {
-  return (GRIP_AXES + impl_->fields.real_planes + contact_planes(impl_->fields)) * impl_->real_size() +
-         impl_->fields.uint_planes * sizeof(std::uint32_t);
+  const GripProgram& program = impl_->program();
+  return (GRIP_AXES + program.real_planes) * impl_->real_size() + program.fields.uint_planes * sizeof(std::uint32_t);
 }
 
 std::size_t GripBackend::table_bytes() const {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernels' way through a Vulkan device: a scene's tables, a pipeline per vessel, and grips streamed through grip, force, score and
-// select.
+// The kernels' way through a Vulkan device: a scene's tables, its kernels, and grips streamed through them.
 #pragma once
 
 #include <functional>
@@ -15,7 +14,7 @@ namespace wholehand::host {
 
 // What the backend did not make because the scene does not need it, and how it reads the outline; for `--explain`.
 struct GripPipelines {
-  OutlineSource outline = OUTLINE_SPECIALIZED;
+  OutlineSource outline = OUTLINE_COPIED;
   bool force = false, liquid = false;
   int real_planes = 0, uint_planes = 0;  // per grip, kept and scratch
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/backend.h"
@@ -15,8 +16,9 @@ namespace wholehand::host {
 
 struct GripBackendOptions {
   Precision precision = Precision::single;
-  OutlineSource outline = OUTLINE_SPECIALIZED;  // outlines of more than MAX_OUTLINE elements always come from a buffer
-  EvaluatorOptions evaluator;                   // as the core's: lattice instead of outline, tolerances, ..
+  OutlineSource outline = OUTLINE_COPIED;  // the small build, and outlines of more than MAX_OUTLINE elements, take OUTLINE_BUFFER
+  std::optional<KernelBuild> build{};      // in place of what suits the device, to compare
+  EvaluatorOptions evaluator;              // as the core's: lattice instead of outline, tolerances, ..
   DeviceOptions device;
   StreamOptions stream;
   // Grips of an invocation of the kernel of forces; 0: what suits the device. The bits are the same.

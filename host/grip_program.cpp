@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <functional>
+#include <set>
 
 #include "core/parallel.h"
 #include "core/touch.h"
@@ -61,7 +62,7 @@ DeviceSteps device_steps(const DeviceInfo& device, const EvaluatorOptions& asked
   DeviceSteps steps;
   if (asked.trace_steps > 0) steps.most.trace = asked.trace_steps;
   if (asked.advance_steps > 0) steps.most.advance = asked.advance_steps;
-  steps.are_few = device.kind == DeviceKind::cpu && grip_turns(steps.most, loops) > TURN_BUDGET;
+  steps.are_few = is_llvmpipe(device) && !are_granted(steps.most, loops);
   if (steps.are_few) {
     steps.most.trace = std::min(steps.most.trace, most_steps(loops));
     steps.most.advance = std::min(steps.most.advance, most_steps(loops));
@@ -89,15 +90,45 @@ bool is_off_axis(const VesselArrays& vessel) { return vessel.parameters.center_x
 
 std::size_t real_size(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
 
+// Also planes that nobody asked for and that the kernels of a grip hand on to each other.
+FieldSet with_handed_on(FieldSet fields, const Scene& scene) {
+  const auto add = [&](int field, int planes) {
+    if (fields.has(field)) return;
+    fields.plane[field] = fields.real_planes;
+    fields.real_planes += planes;
+  };
+  add(FIELD_POSED, 3 * JOINTS);
+  if (scene.table) add(FIELD_TABLE_DEPTH, 1);
+  return fields;
+}
+
 }  // namespace
 
-int contact_planes(const FieldSet& fields) { return fields.has(FIELD_WORST_EFFORT) ? CONTACT_STRIDE * JOINTS : 0; }
+struct GripProgram::GripKernel {
+  std::shared_ptr<Kernel> VesselOnDevice::*place;
+  const char* name;
+  OutlineSource outline;
+  std::vector<Constant> constants;
+  bool operator==(const GripKernel&) const = default;
+};
 
-GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
+GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& asked,
                          const std::string& selector, const GripBackendOptions& options)
-    : on(selector, options.device), vessels(scene.vessels.size()), precision_(options.precision) {
+    : on(selector, options.device),
+      vessels(scene.vessels.size()),
+      fields(with_handed_on(asked, scene)),
+      precision_(options.precision),
+      build_(options.build            ? *options.build
+             : is_llvmpipe(on.info()) ? BUILD_WIDE
+                                      : BUILD_SMALL) {
   if (options.precision == Precision::full && !on.info().float64) {
     throw usage_error("device " + on.info().name + " has no double precision (shaderFloat64); use another device",
+                      Remedy::or_float_precision);
+  }
+  const std::size_t shared = GROUP_SIZE * (SOLVE_REALS * real_size(precision_) + sizeof(std::uint32_t)) + sizeof(std::uint32_t);
+  if (build_ == BUILD_SMALL && fields.has(FIELD_WORST_EFFORT) && on.info().shared_memory < shared) {
+    throw usage_error("device " + on.info().name + " has " + std::to_string(on.info().shared_memory) +
+                          " bytes of memory for a group, and efforts take " + std::to_string(shared) + "; use another device",
                       Remedy::or_float_precision);
   }
   fill_count = static_cast<std::uint32_t>(scene_fills(scene));
@@ -125,7 +156,9 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
     int task;
     std::vector<Constant> constants;
   };
-  has_efforts_ = contact_planes(fields) > 0;
+  has_efforts_ = fields.has(FIELD_WORST_EFFORT);
+  const int contacts = fields.real_planes + PLACED_STRIDE;  // first plane
+  real_planes = contacts + (has_efforts_ ? CONTACT_STRIDE * JOINTS : 0);
   std::vector<EffortKernel> efforts{{&worst_effort, "effort", EFFORT_WORST, {}}};
   if (fields.has(FIELD_TIPS_WORST_EFFORT)) efforts.push_back({&tips_effort, "effort", EFFORT_TIPS, {}});
   if (fields.has(FIELD_SAFE_TILT)) efforts.push_back({&safe_effort, "effort", EFFORT_SAFE, {}});
@@ -134,20 +167,37 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
 
   // making a pipeline takes a core a tenth of a second, so they are made side by side
   std::vector<std::function<void()>> tasks;
+  const auto kernel_of = [&](const char* name, OutlineSource outline, const std::vector<Constant>& values) {
+    return Kernel(on, find_shader(name, options.precision, build_, outline, options.shaders), values, name);
+  };
+  for (const VesselArrays& vessel : arrays.vessels) {
+    if (vessel.lattice || vessel.outline_count > MAX_OUTLINE) continue;
+    copied_count_ = std::max(copied_count_, vessel.outline_count);
+    for (int i = 0; i < vessel.outline_count; ++i)
+      copied_arcs_ |= SIDE_OF(static_cast<int>(vessel.outline[OUTLINE_STRIDE * i + OUTLINE_STRIDE - 1])) != 0 ? 1u << i : 0u;
+  }
+  std::vector<std::vector<GripKernel>> grips;
   for (std::size_t v = 0; v < vessels.size(); ++v) {
     upload_vessel(v, scene, arrays, options);  // through the one queue: not side by side
-    tasks.push_back([&, v] { make_grip_kernel(v, scene, arrays, fields, options); });
+    grips.push_back(grip_kernels(v, scene, arrays, options));
   }
+  for (std::size_t v = 0; v < vessels.size(); ++v)
+    for (const GripKernel& kernel : grips[v]) {
+      const auto owner =
+          std::ranges::find_if(grips, [&](const auto& kernels) { return std::ranges::find(kernels, kernel) != kernels.end(); });
+      if (owner == grips.begin() + static_cast<std::ptrdiff_t>(v))
+        tasks.push_back([&, v] {
+          vessels[v].*kernel.place = std::make_shared<Kernel>(kernel_of(kernel.name, kernel.outline, kernel.constants));
+        });
+    }
   const auto make = [&](std::optional<Kernel>& kernel, const char* name, const std::vector<Constant>& values) {
-    tasks.push_back([&kernel, name, &values, &options, this] {
-      kernel.emplace(on, find_shader(name, options.precision, OUTLINE_NONE, options.shaders), values, name);
-    });
+    tasks.push_back([&kernel, name, &values, &kernel_of] { kernel.emplace(kernel_of(name, OUTLINE_NONE, values)); });
   };
   const std::vector<Constant> common = common_constants();
   if (has_efforts_) {
     for (auto& [kernel, name, task, values] : efforts) {
       values = constants;
-      values.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});
+      values.push_back({CONST_CONTACTS, std::int32_t(contacts)});
       values.push_back({CONST_EFFORT_TASK, std::int32_t(task)});
       const double tolerance = options.evaluator.effort_tolerance;
       if (tolerance > 0) add_real(values, CONST_EFFORT_TOLERANCE, tolerance, options.precision);
@@ -163,16 +213,34 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   make(score, "score", constants);
   make(select, "select", constants);
   in_parallel(tasks.size(), 0, [&](std::size_t k) { tasks[k](); });
+  for (std::size_t v = 0; v < vessels.size(); ++v)
+    for (const GripKernel& kernel : grips[v])
+      for (std::size_t other = 0; !(vessels[v].*kernel.place); ++other)
+        if (std::ranges::find(grips[other], kernel) != grips[other].end()) vessels[v].*kernel.place = vessels[other].*kernel.place;
   for (std::size_t v = 0; wet && v < vessels.size(); ++v) make_liquid(v, scene, arrays, core, options);
+}
+
+std::vector<const Kernel*> GripProgram::kernels() const {
+  std::set<const Kernel*> made;
+  for (const VesselOnDevice& vessel : vessels)
+    for (const auto& kernel : {vessel.closure, vessel.rest, vessel.contact, vessel.overlap}) made.insert(kernel.get());
+  for (const auto* kernel :
+       {&force, &score, &select, &lip, &liquid, &worst_effort, &tips_effort, &safe_effort, &push_reserve, &friction_reserve})
+    made.insert(*kernel ? &**kernel : nullptr);
+  made.erase(nullptr);
+  return {made.begin(), made.end()};
 }
 
 void GripProgram::upload_vessel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const GripBackendOptions& options) {
   const VesselArrays& from = arrays.vessels[v];
   VesselOnDevice& vessel = vessels[v];
   // with a lattice the outline is not read: one pipeline for all vessels, which a driver compiles once
-  vessel.outline_source = from.lattice || from.outline_count > MAX_OUTLINE ? OUTLINE_BUFFER : options.outline;
+  const bool may_choose = build_ == BUILD_WIDE && !from.lattice && from.outline_count <= MAX_OUTLINE;
+  vessel.outline_source = may_choose ? options.outline : OUTLINE_BUFFER;
   std::vector<double> outline = from.outline;
-  outline.resize(std::max<std::size_t>(outline.size(), OUTLINE_STRIDE * MAX_OUTLINE));  // the uniform block has a fixed size
+  // as many as the longest has that fits, so that vessels share a pipeline: no point comes near those that are added
+  for (int i = from.outline_count; i < copied_count_; ++i)
+    outline.insert(outline.end(), {FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, 1, 0, 0, ELEMENT_CODE(0, 0)});
   vessel.parameters = upload(on, options.precision, from.parameters);
   vessel.outline = upload(on, options.precision, outline);
   vessel.lattice = Buffer::of(on, from.lattice ? *from.lattice : std::vector<std::uint32_t>(4));
@@ -239,36 +307,40 @@ void GripProgram::upload_states(std::size_t v, const Scene& scene, const SceneAr
   vessels[v].safe_states = upload_blocks(efforts.safe);
 }
 
-void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const FieldSet& fields,
-                                   const GripBackendOptions& options) {
+// None where the vessel is the core's.
+std::vector<GripProgram::GripKernel> GripProgram::grip_kernels(std::size_t v, const Scene& scene, const SceneArrays& arrays,
+                                                               const GripBackendOptions& options) {
   const VesselArrays& from = arrays.vessels[v];
-  VesselOnDevice& vessel = vessels[v];
-  const bool is_looped = !from.lattice && vessel.outline_source == OUTLINE_BUFFER;
+  const OutlineSource source = vessels[v].outline_source;
+  const bool is_looped = !from.lattice && source == OUTLINE_BUFFER;
   const bool has_proxies = fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH);
   const int azimuths = arm_azimuths(scene, scene.vessels[v]);
   const GripLoops loops{is_looped ? from.outline_count : 0, scene.hand.between, has_proxies, azimuths};
   const DeviceSteps steps = device_steps(on.info(), options.evaluator, loops);
-  // without a status, no one learns of which grips the steps were too few
-  if (steps.are_few && (from.outline_count > MAX_OUTLINE || most_steps(loops) < 1 || !fields.has(FIELD_STATUS))) return;
+  if (steps.are_few && (from.outline_count > MAX_OUTLINE || most_steps(loops) < 1 || !are_granted(steps.most, loops))) return {};
   std::vector<Constant> constants = common_constants();
   add_planes(constants, fields);
+  constants.push_back({CONST_PLACED, std::int32_t(fields.real_planes)});
+  if (has_efforts_) constants.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes + PLACED_STRIDE)});
   constants.push_back({CONST_POSE, std::int32_t(scene.pose == Pose::articulated ? POSE_ARTICULATED
                                                 : scene.pose == Pose::paper     ? POSE_PAPER
                                                                                 : POSE_RIGGED)});
-  constants.push_back({CONST_SDF_KIND, std::int32_t(from.lattice ? SDF_LATTICE : SDF_OUTLINE)});
-  constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(from.outline_count)});
   if (scene.table) constants.push_back({CONST_TABLE, std::int32_t(1)});
-  if (azimuths > 0) constants.push_back({CONST_ARM, std::int32_t(azimuths)});
   if (scene.hand.between > 0) constants.push_back({CONST_BETWEEN, std::int32_t(scene.hand.between)});
-  if (from.halves) constants.push_back({CONST_LATTICE_BITS, std::int32_t(16)});
-  if (has_efforts_) constants.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});
-  add_limits(constants, steps, options);
-  constants.push_back({CONST_LID, std::int32_t(from.lattice ? -1 : from.lid)});
-  if (vessel.outline_source == OUTLINE_SPECIALIZED) {
-    for (std::size_t i = 0; i < from.outline.size(); ++i)
-      add_real(constants, static_cast<std::uint32_t>(CONST_OUTLINE + i), from.outline[i], options.precision);
+  std::vector<Constant> overlap = constants;
+  if (azimuths > 0) overlap.push_back({CONST_ARM, std::int32_t(azimuths)});
+  constants.push_back({CONST_SDF_KIND, std::int32_t(from.lattice ? SDF_LATTICE : SDF_OUTLINE)});
+  if (source == OUTLINE_COPIED) {
+    constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(copied_count_)});
+    constants.push_back({CONST_ARCS, copied_arcs_});
   }
-  vessel.grip.emplace(on, find_shader("grip", options.precision, vessel.outline_source, options.shaders), constants, "grip");
+  if (from.halves) constants.push_back({CONST_LATTICE_BITS, std::int32_t(16)});
+  add_limits(constants, steps, options);
+  std::vector<GripKernel> kernels{{&VesselOnDevice::closure, "closure", source, constants},
+                                  {&VesselOnDevice::contact, "contact", source, constants}};
+  if (scene.pose != Pose::rigged) kernels.push_back({&VesselOnDevice::rest, "rest", source, constants});
+  if (scene.hand.between > 0 || azimuths > 0) kernels.push_back({&VesselOnDevice::overlap, "overlap", OUTLINE_NONE, overlap});
+  return kernels;
 }
 
 std::unique_ptr<LiquidWork> GripProgram::liquid_work(std::size_t v, const SceneArrays& arrays) const {
@@ -347,7 +419,8 @@ void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, do
   commands.bind(BINDING_HAND, hand);
   commands.bind(BINDING_OUTLINE, vessel.outline);
   commands.bind(BINDING_LATTICE, vessel.lattice);
-  commands.dispatch(*vessel.grip, groups_for(on, *vessel.grip, count), Push{count, stride, 0, 0});
+  for (const auto& kernel : {vessel.closure, vessel.rest, vessel.contact, vessel.overlap})
+    if (kernel) commands.dispatch(*kernel, groups_for(on, *kernel, count), Push{count, stride, 0, 0});
   if (force) {
     const std::uint32_t states = fill_count * tilt_count, invocations = (count + forces_together - 1) / forces_together;
     for (std::uint32_t first = 0; first < states; first += STATES_IN_BLOCK) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene on one device: buffers that all grips share, the vessels' pipelines, and the liquid's tables; for host/ alone.
+// A scene on one device: buffers that all grips share, the kernels, and the liquid's tables; for host/ alone.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,14 @@ namespace wholehand::host {
 
 // What a vessel needs on the device.
 struct VesselOnDevice {
-  OutlineSource outline_source = OUTLINE_SPECIALIZED;
+  OutlineSource outline_source = OUTLINE_COPIED;
   Buffer parameters, outline, lattice, fills;
   std::vector<Buffer> states;                     // blocks of STATES_IN_BLOCK; empty without tilts
   std::vector<Buffer> worst_states, safe_states;  // likewise, of the efforts; empty without them
   std::uint32_t worst_count = 0, safe_count = 0;  // states in them
-  std::optional<Kernel> grip;  // none where a CPU driver would loop over a long outline: the turns have no bound that it grants
+  // None where a CPU driver would loop over a long outline: the turns have no bound that it grants. Vessels share those that are the same.
+  std::shared_ptr<Kernel> closure, rest, contact, overlap;
+  bool is_on_core() const { return !closure; }
   std::vector<LiquidResult> liquid;  // fill-major; empty without
 };
 
@@ -41,6 +43,8 @@ struct GripProgram final : Program {
   // The liquid of a vessel with a cavity over all fills and tilts, in a scene with liquid and tilts: buffers, and the dispatches that fill them.
   std::unique_ptr<LiquidWork> liquid_work(std::size_t vessel, const SceneArrays& arrays) const;
 
+  std::vector<const Kernel*> kernels() const;  // each once
+
   // The vessels' parameter blocks alone, into the buffers that are there. With no chunk in flight.
   void write_parameters(const SceneArrays& arrays);
   // The fills of all vessels, and what follows from them: parameters, liquid and states. As many fills as there were. With no chunk
@@ -55,21 +59,24 @@ struct GripProgram final : Program {
   std::optional<Kernel> worst_effort, tips_effort, safe_effort, push_reserve, friction_reserve;  // in a scene with efforts
   std::uint32_t forces_together = 1;  // grips of an invocation of `force`
   std::uint32_t fill_count = 0, tilt_count = 0;
+  FieldSet fields;      // those asked for, and what the kernels of a grip hand on to each other
+  int real_planes = 0;  // of a chunk: of the fields, and scratch
 
  private:
   Precision precision_;
+  KernelBuild build_;
   bool has_efforts_ = false;
+  int copied_count_ = 0;           // elements of every outline that is copied,
+  std::uint32_t copied_arcs_ = 0;  // and which of them are an arc in any vessel, a bit each
   void upload_vessel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const GripBackendOptions& options);
-  void make_grip_kernel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const FieldSet& fields,
-                        const GripBackendOptions& options);
+  struct GripKernel;
+  std::vector<GripKernel> grip_kernels(std::size_t v, const Scene& scene, const SceneArrays& arrays,
+                                       const GripBackendOptions& options);
   void make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
                    const GripBackendOptions& options);
   void upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays, const std::vector<double>& loads);
   std::vector<Buffer> upload_blocks(const std::vector<double>& states);
   void record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, Commands& commands) const;
 };
-
-// Planes of reals that a chunk has besides those of its fields: where joints press, in a scene with efforts.
-int contact_planes(const FieldSet& fields);
 
 }  // namespace wholehand::host

@@ -128,12 +128,12 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::
                         Remedy::core);
   }
   const Specialization specialization = specialize(shader, constants, name);
-  const std::vector<std::uint32_t> code = specialized(words, specialization.bits, kept_widths(on.info, shader));
+  state_->words = specialized(words, specialization.bits, kept_widths(on.info, shader));
   checked("compiling kernel " + name, [&] {
     state_->set_layout = vk::raii::DescriptorSetLayout(*on.device, vk::DescriptorSetLayoutCreateInfo({}, layout));
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, MAX_PUSH);
     state_->layout = vk::raii::PipelineLayout(*on.device, vk::PipelineLayoutCreateInfo({}, *state_->set_layout, push));
-    const vk::raii::ShaderModule module(*on.device, {{}, code.size() * sizeof(std::uint32_t), code.data()});
+    const vk::raii::ShaderModule module(*on.device, {{}, state_->words.size() * sizeof(std::uint32_t), state_->words.data()});
     const vk::SpecializationInfo special(static_cast<std::uint32_t>(specialization.entries.size()), specialization.entries.data(),
                                          specialization.bytes.size(), specialization.bytes.data());
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &special);
@@ -147,6 +147,7 @@ Kernel::Kernel(Kernel&&) noexcept = default;
 Kernel& Kernel::operator=(Kernel&&) noexcept = default;
 
 const std::string& Kernel::name() const { return state_->name; }
+const std::vector<std::uint32_t>& Kernel::words() const { return state_->words; }
 const std::array<std::uint32_t, 3>& Kernel::group_size() const { return state_->group_size; }
 bool Kernel::uses(std::uint32_t binding) const {
   return std::ranges::any_of(state_->bindings, [&](const auto& one) { return one.first == binding; });

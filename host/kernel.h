@@ -19,6 +19,7 @@ namespace wholehand::host {
 struct Constant {
   std::uint32_t id = 0;
   std::variant<std::int32_t, std::uint32_t, float, double> value;
+  bool operator==(const Constant&) const = default;
 };
 
 struct KernelState;  // vulkan.h
@@ -35,6 +36,7 @@ class Kernel {
   Kernel& operator=(Kernel&&) noexcept;
 
   const std::string& name() const;
+  const std::vector<std::uint32_t>& words() const;  // the module that the driver got
   const std::array<std::uint32_t, 3>& group_size() const;
   bool uses(std::uint32_t binding) const;
 

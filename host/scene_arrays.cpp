@@ -63,7 +63,6 @@ void set_lattice(VesselArrays& arrays, const PreparedLattice& lattice) {
   p.lattice_nx = lattice.nx;
   p.lattice_ny = lattice.ny;
   p.lattice_nz = lattice.nz;
-  arrays.lid = -1;
 }
 
 void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselData& vessel) {
@@ -132,7 +131,6 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     VesselArrays vessel;
     append_elements(vessel.outline, prepared.outline);
     append_elements(vessel.cavity, prepared.cavity);
-    vessel.lid = prepared.lid;
     vessel.outline_count = static_cast<int>(prepared.outline.size());
     vessel.cavity_count = static_cast<int>(prepared.cavity.size());
     auto& p = vessel.parameters;
@@ -154,8 +152,16 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     p.largest_height = constants.largest_height;
     p.outline_count = vessel.outline_count;
     p.cavity_count = vessel.cavity_count;
+    p.lid = NO_LID;
+    p.lid_height = std::numeric_limits<double>::infinity();
     p.quadrature_count = static_cast<std::uint32_t>(rule.cosine.size());
-    if (const PreparedLattice* lattice = core.lattice(v)) set_lattice(vessel, *lattice);
+    if (const PreparedLattice* lattice = core.lattice(v)) {
+      set_lattice(vessel, *lattice);
+    } else if (prepared.lid >= 0) {
+      p.lid = static_cast<std::uint32_t>(prepared.lid);
+      p.lid_radius = prepared.outline[prepared.lid].a[0];
+      p.lid_height = prepared.outline[prepared.lid].a[1];
+    }
     if (scene.liquid) vessel.fills = vessel_fills(scene, data);
     vessel.counted_tilts = counted_tilts(scene, v);
     for (std::size_t t = 0; !scene.liquid && t < scene.tilts.size(); ++t)
@@ -225,6 +231,7 @@ Parameters<Real> convert(const Parameters<double>& from) {
   std::copy(source.begin(), source.end(), target.begin());
   std::memcpy(&to, target.data(), sizeof target);
   to.outline_count = from.outline_count;
+  to.lid = from.lid;
   to.cavity_count = from.cavity_count;
   to.lattice_nx = from.lattice_nx;
   to.lattice_ny = from.lattice_ny;

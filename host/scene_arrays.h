@@ -22,7 +22,6 @@ struct VesselArrays {
   std::vector<double> dry_loads;                              // LOAD_STRIDE a tilt, for a scene without liquid
   std::vector<double> fills;                                  // fractions of its capacity; empty without liquid
   std::vector<std::size_t> counted_tilts;                     // at each fill, from the first on; the others are left out
-  int lid = -1;
   int outline_count = 0, cavity_count = 0;
 };
 

@@ -12,29 +12,36 @@ namespace wholehand {
 
 // How a shader reads the vessel's outline (OUTLINE_SOURCE when it is compiled).
 enum OutlineSource : int {
-  OUTLINE_NONE = -1,       // the shader does not read it
-  OUTLINE_BUFFER = 0,      // elements and their number from a storage buffer, in the loop
-  OUTLINE_HOISTED = 1,     // copied once per invocation from a uniform buffer
-  OUTLINE_SPECIALIZED = 2  // specialization constants
+  OUTLINE_NONE = -1,   // the shader does not read it
+  OUTLINE_BUFFER = 0,  // elements and their number from a storage buffer, in the loop
+  OUTLINE_COPIED = 1   // copied once per invocation from a storage buffer
+};
+
+// Which of its two builds a shader is (shaders/build.glsl).
+enum KernelBuild : int {
+  BUILD_ANY = -1,   // both are the same
+  BUILD_WIDE = 0,   // for llvmpipe
+  BUILD_SMALL = 1,  // for every other driver; reads an outline from a buffer
 };
 
 struct EmbeddedShader {
   std::string_view name;  // stem of the .comp file
   int precision = 0;      // 0: float, 1: double (REAL_IS_DOUBLE)
+  int build = BUILD_ANY;
   int outline_source = OUTLINE_NONE;
   std::span<const std::uint32_t> words;  // SPIR-V
 };
 
-// Every entry point of shaders/ in each of its variants; sorted by name, then precision, then outline source.
+// Every entry point of shaders/ in each of its variants; sorted by name, then precision, then build, then outline source.
 std::span<const EmbeddedShader> embedded_shaders();
 
 }  // namespace wholehand
 
 namespace wholehand::host {
 
-// The embedded shader of that name in a precision; the variant for an outline source where it has any; of `among` where it is there, such as
-// shaders to compare with. Throws Error when the build lacks it.
-std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline = OUTLINE_NONE,
-                                           std::span<const EmbeddedShader> among = {});
+// The embedded shader of that name in a precision; the variant for a build and an outline source where it has any; of `among` where it is there,
+// such as shaders to compare with. Throws Error when the build lacks it.
+std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, KernelBuild build = BUILD_WIDE,
+                                           OutlineSource outline = OUTLINE_NONE, std::span<const EmbeddedShader> among = {});
 
 }  // namespace wholehand::host

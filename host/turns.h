@@ -13,7 +13,7 @@ namespace wholehand::host {
 // What a loop of so many turns takes, with `inside` in the loops of each.
 constexpr std::int64_t loop_turns(std::int64_t turns, std::int64_t inside = 0) { return turns * (1 + inside) + 1; }
 
-// ---- grip ----
+// ---- closure, rest, contact and overlap ----
 struct GripSteps {
   int trace = TRACE_STEPS, advance = ADVANCE_STEPS;
 };
@@ -25,25 +25,49 @@ struct GripLoops {
   int azimuths = 0;  // at which the wrist is judged
 };
 
-constexpr std::int64_t grip_turns(const GripSteps& steps, const GripLoops& loops) {
-  const std::int64_t distance = loops.looped_elements > 0 ? loop_turns(loops.looped_elements) : 0, places = 3 * (loops.between + 1);
-  const std::int64_t proxy = loops.proxies ? loop_turns(PROXY_STEPS, 2 * distance) + distance : 0;
+constexpr std::int64_t distance_turns(const GripLoops& loops) {
+  return loops.looped_elements > 0 ? loop_turns(loops.looped_elements) : 0;
+}
+
+constexpr std::int64_t POINTS_TURNS = loop_turns(3);  // of a finger
+
+constexpr std::int64_t closure_turns(const GripSteps& steps, const GripLoops& loops) {
+  return loop_turns(2, loop_turns(steps.trace, distance_turns(loops))) + loop_turns(GAP_STEPS, 2 * POINTS_TURNS) +
+         4 * POINTS_TURNS + loop_turns(JOINTS) + loop_turns(FINGERS, loop_turns(2, POINTS_TURNS));
+}
+
+constexpr std::int64_t rest_turns(const GripSteps& steps, const GripLoops& loops) {
+  const std::int64_t distance = distance_turns(loops), places = 3 * (loops.between + 1);
   // a finger evaluates all points before each of four stages and once at rest; in pose paper it moves three points instead
-  const std::int64_t rest = std::max(loop_turns(4 * (steps.advance + 1) + 5 * places, distance),
-                                     loop_turns(3, distance + loop_turns(steps.advance, distance)));
-  const std::int64_t examine = loop_turns(5, 3 * distance + proxy);
-  const std::int64_t between = loops.between > 0 ? loop_turns(4 * loops.between, 3 * distance + 2) + loop_turns(5) : 0;
-  const std::int64_t overlap = loops.between > 0 ? loop_turns(PHALANGES - 3, loop_turns(PHALANGES - 2, loop_turns(2))) : 0;
-  return loop_turns(2, loop_turns(steps.trace, distance)) + loop_turns(GAP_STEPS) + 3 * rest +
-         loop_turns(FINGERS, examine + between) + overlap + loop_turns(loops.azimuths, loop_turns(ARM_RAISES)) + loop_turns(JOINTS);
+  return loop_turns(3, std::max(loop_turns(4 * (steps.advance + 1) + 5 * places, distance) + POINTS_TURNS,
+                                loop_turns(3, distance + loop_turns(steps.advance, distance))));
+}
+
+constexpr std::int64_t contact_turns(const GripLoops& loops) {
+  const std::int64_t distance = distance_turns(loops), proxy = loops.proxies ? loop_turns(PROXY_STEPS, 2 * distance) + distance : 0;
+  return loop_turns(FINGERS, loop_turns(5, distance + proxy + 4) + loop_turns(4 * loops.between, distance + 4));
+}
+
+constexpr std::int64_t overlap_turns(const GripLoops& loops) {
+  return (loops.between > 0 ? loop_turns(PHALANGES - 3, loop_turns(PHALANGES - 2, loop_turns(2))) : 0) +
+         loop_turns(loops.azimuths, loop_turns(ARM_RAISES));
 }
 
 // The most steps, the same of a trace and a stage, with which a grip stays within the budget; below 1 where there are none.
 constexpr int most_steps(const GripLoops& loops) {
-  const std::int64_t none = grip_turns({0, 0}, loops), each = grip_turns({1, 1}, loops) - none;
-  return static_cast<int>(std::min<std::int64_t>((TURN_BUDGET - none) / each, TRACE_STEPS));
+  const auto most = [&](auto turns) {
+    const std::int64_t none = turns(GripSteps{0, 0}, loops), each = turns(GripSteps{1, 1}, loops) - none;
+    return static_cast<int>(std::min<std::int64_t>((TURN_BUDGET - none) / each, TRACE_STEPS));
+  };
+  return std::min(most(closure_turns), most(rest_turns));
 }
-static_assert(grip_turns({}, {0, MOST_BETWEEN, true, ARM_AZIMUTHS}) <= TURN_BUDGET);
+
+// Whether a grip of so many steps stays within the budget in every kernel.
+constexpr bool are_granted(const GripSteps& steps, const GripLoops& loops) {
+  return closure_turns(steps, loops) <= TURN_BUDGET && rest_turns(steps, loops) <= TURN_BUDGET &&
+         contact_turns(loops) <= TURN_BUDGET && overlap_turns(loops) <= TURN_BUDGET;
+}
+static_assert(are_granted({}, {0, MOST_BETWEEN, true, ARM_AZIMUTHS}));
 
 // ---- lip and liquid ----
 // Lanes of a vector have their liquid in different ones of a piece's five parts, or stand upright.

@@ -95,6 +95,7 @@ struct BufferState {
 struct KernelState {
   const DeviceState& device;
   std::string name{};
+  std::vector<std::uint32_t> words{};
   std::vector<std::pair<std::uint32_t, vk::DescriptorType>> bindings{};
   std::array<std::uint32_t, 3> group_size{1, 1, 1};
   vk::raii::DescriptorSetLayout set_layout = nullptr;

@@ -10,12 +10,6 @@ struct Grip {
   Real height, azimuth, obliquity, roll, offset, hand_scale;
 };
 
-struct Placement {
-  Mat3 rotation;
-  Vec3 translation;
-  Real scale;
-};
-
 struct Trace {
   Real t;
   int reason;
@@ -141,7 +135,7 @@ Closing close_fingers(Grip grip) {
   closing.placement = place_hand(closing.closure, d, grip.roll, closing.midpoint, scale, e1_x);
   if (abs(e1_x) > LARGEST_E1_X) return closing;
   closing.reason = REASON_ON_MOUTH;
-  if (LID >= 0 && (index.element == LID || thumb.element == LID)) return closing;
+  if (index.element == int(scene.lid) || thumb.element == int(scene.lid)) return closing;
   closing.reason = REASON_NONE;
   closing.index_angle = angle_between(index.normal, d);
   closing.thumb_angle = angle_between(thumb.normal, -d);

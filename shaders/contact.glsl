@@ -43,14 +43,12 @@ bool presses_at(Vec3 p, out Vec3 place, out Vec3 normal) {
   Vec3 outward = distance_gradient(p, element);
   place = p - signed_distance(p) * outward;
   normal = -outward;
-  return LID < 0 || element != LID;
+  return element != int(scene.lid);
 }
 
 bool is_undecided(Vec3 p, Real separation, Real tolerance) {
-  if (abs(separation - tolerance) <= CONTACT_MARGIN) return true;
-  if (LID < 0 || separation > tolerance) return false;
-  Vec2 edge = outline_element(max(LID, 0)).a;
-  return p.y > edge.y && abs(sqrt(p.x * p.x + p.z * p.z) - edge.x) <= CONTACT_MARGIN;
+  bool is_at_edge = p.y > scene.lid_height && abs(sqrt(p.x * p.x + p.z * p.z) - scene.lid_radius) <= CONTACT_MARGIN;
+  return abs(separation - tolerance) <= CONTACT_MARGIN || (separation <= tolerance && is_at_edge);
 }
 
 #endif

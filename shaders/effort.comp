@@ -11,7 +11,7 @@
 // The state that the last lower bound's direction bounds most, where that is more than `most`.
 uint highest(Solve solve, Real most, uint state) {
   for (uint i = 0u; i < push.number; ++i) {
-    Real low = dot6(solve.cut, wanted_for(states_in[2u * i], states_in[2u * i + 1u])) / solve.cut_height;
+    Real low = dot6(column(CUT), wanted_for(states_in[2u * i], states_in[2u * i + 1u])) / solve.cut_height;
     state = low > most ? i : state;
     most = max(most, low);
   }
@@ -39,15 +39,10 @@ bool is_busy(uint grip) {
 }
 
 void main() {
-  if (gl_LocalInvocationIndex == 0u) busy_count = 0u;
-  barrier();
-  if (INVOCATION < push.count && is_busy(INVOCATION)) busy_grips[atomicAdd(busy_count, 1u)] = INVOCATION;
-  barrier();
-  bool has_grip = gl_LocalInvocationIndex < busy_count;
-  uint grip = 0u;
+  uint grip;
+  bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
   // a driver skips a loop of one turn that no lane takes; it does not skip a branch
   [[dont_unroll]] for (bool once = has_grip; once; once = false) {
-    grip = busy_grips[gl_LocalInvocationIndex];
     load_contacts(grip);
     Real sa, ca, sb, cb;
     sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
@@ -66,7 +61,6 @@ void main() {
   uint state = 0u;
   int pivots = 0;  // since the inverse was refined
   Solve solve;
-  Six wanted;
   bool has_basis = false, is_warm = false, is_solving = false;
   int turns = 0;
   uint k = has_grip ? 0u : push.number;
@@ -77,17 +71,17 @@ void main() {
     while (k < push.number && !is_solving) {
       state = is_rising ? state : k;
       Vec4 tilted = states_in[2u * state + 1u];
-      wanted = wanted_for(states_in[2u * state], tilted);
+      Six wanted = wanted_for(states_in[2u * state], tilted);
       bool is_past = TASK == EFFORT_SAFE && tilted.z >= Real(0) && !(kept(PLANE_SAFE_TILT, int(tilted.w), grip) >= tilted.z);
       bool is_small = dot6(wanted, wanted) == Real(0) || (!is_rising && bound(wanted, has_basis) <= enough);
       is_solving = !is_past && !is_small;
+      if (is_solving) solve = start(wanted);
       is_rising = is_rising && is_solving;
       k += is_solving ? 0u : 1u;
     }
     // without a loop or a branch: those copy the basis
     is_new = is_new && is_solving;
     is_warm = is_new ? has_basis : is_warm;
-    if (is_new) solve = start(wanted);
     restart(solve.wanted, ROUNDING * solve.size, is_new && !has_basis, is_new && has_basis);
     has_basis = has_basis || is_new;
     Real tolerance = is_rising && rises > 0 ? RISE_TOLERANCE : HALF_TOLERANCE;

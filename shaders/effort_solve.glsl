@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of efforts share: the contacts of a grip in registers, the support function of Z, and a solve pivot by pivot.
+// What the kernels of efforts share: the contacts of a grip, the support function of Z, and a solve pivot by pivot.
 #ifndef EFFORT_SOLVE_GLSL
 #define EFFORT_SOLVE_GLSL
 
+#include "busy.glsl"
 #include "force.glsl"
 #include "gauge.glsl"
 #include "grips.glsl"
@@ -14,78 +15,105 @@
 #define RISE_TOLERANCE RATIO(1, 20)  // of an effort that only directs the search
 #define FRESH_PIVOTS 20  // pivots after which the inverse is refined
 
-layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
 layout(constant_id = CONST_EFFORT_TASK) const int TASK = EFFORT_WORST;
 layout(constant_id = CONST_BARE) const bool BARE = true;
 layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 * STATES_IN_BLOCK]; };
 
-// The grips of the group that there is something to do for, one after another: all lanes of a vector run until the slowest is done.
-shared uint busy_grips[GROUP_SIZE];
-shared uint busy_count;
-
 // What a grip holds with: contacts about `center` in units of length, 0 where there is none; strengths in units of force.
-Vec3 arms[JOINTS], normals[JOINTS];
 Vec3 center, pour;
-Real unit_length, unit_force, gamma, dear;
-// Scene values, loaded before the loops over states: in them a driver would gather each lane by lane.
-Vec3 own_center;
-Real gravity;
+Real unit_length, unit_force, unit_strength, gamma, dear;
 Real friction;
-Real shares[DIGITS];
 Six displaced;      // what points of Z are less, see EffortSolver::displace
 Vec3 line, middle;  // of the two tips: unit; m from `center`; without torsion
 bool are_alone;     // the tips
 
-int digit_of(int joint) {
-  int finger = joint < 4 ? 0 : (joint + 1) / 5;
-  return joint == 0 || joint == 5 * finger - 1 ? FINGERS : finger;
+// The joints digit by digit: three of the thumb, four of each finger, and those of the palm.
+int joint_in_order(int k) { return k < 3 ? k + 1 : k < 19 ? k + 2 + (k - 3) / 4 : max(5 * (k - 19) - 1, 0); }
+int digit_in_order(int k) { return k < 3 ? 0 : k < 19 ? 1 + (k - 3) / 4 : FINGERS; }
+bool ends_digit(int k) { return k == JOINTS - 1 || digit_in_order(k) != digit_in_order(k + 1); }
+
+Real strength_of(int digit) {
+  return digit == 0   ? scene.thumb_strength
+         : digit == 1 ? scene.index_strength
+         : digit == 2 ? scene.middle_strength
+         : digit == 3 ? scene.ring_strength
+         : digit == 4 ? scene.little_strength
+                      : scene.palm_strength;
 }
 
-bool is_pressing(int joint) {
-  return (TASK != EFFORT_TIPS || joint == THUMB_TIP || joint == INDEX_TIP) && dot(normals[joint], normals[joint]) > Real(0);
+bool is_pressing(int joint, Vec3 normal) {
+  return (TASK != EFFORT_TIPS || joint == THUMB_TIP || joint == INDEX_TIP) && dot(normal, normal) > Real(0);
 }
 
-Vec3 contact_vector(int vector, uint grip) {
-  uint at = uint(CONTACTS + 3 * vector) * push.stride + grip;
-  return Vec3(real_out[at], real_out[at + push.stride], real_out[at + 2u * push.stride]);
+#if SMALL
+
+uint own_grip;
+void read_contacts(uint grip) { own_grip = grip; }
+Vec3 place_at(int joint) { return kept_vector(CONTACTS + CONTACT_STRIDE * joint, own_grip); }
+Vec3 normal_of(int joint) { return kept_vector(CONTACTS + CONTACT_STRIDE * joint + 3, own_grip); }
+#define own_center Vec3(scene.center_x, scene.center_y, scene.center_z)
+#define gravity scene.gravity
+Real share_of(int digit) { return strength_of(digit) / unit_strength; }
+Vec3 arm_of(int joint) { return (place_at(joint) - center) / unit_length; }
+void keep_arms() {}
+
+#else
+
+// Loaded before the loops over states: in them llvmpipe would gather each lane by lane.
+Vec3 arms[JOINTS], normals[JOINTS];  // at first places instead of arms
+Vec3 own_center;
+Real gravity;
+Real shares[DIGITS];
+void read_contacts(uint grip) {
+  UNROLL for (int j = 0; j < JOINTS; ++j) {
+    arms[j] = kept_vector(CONTACTS + CONTACT_STRIDE * j, grip);
+    normals[j] = kept_vector(CONTACTS + CONTACT_STRIDE * j + 3, grip);
+  }
+  own_center = Vec3(scene.center_x, scene.center_y, scene.center_z);
+  gravity = scene.gravity;
 }
+Vec3 place_at(int joint) { return arms[joint]; }
+Vec3 normal_of(int joint) { return normals[joint]; }
+Real share_of(int digit) { return shares[digit]; }
+Vec3 arm_of(int joint) { return arms[joint]; }
+void keep_arms() {
+  UNROLL for (int j = 0; j < JOINTS; ++j) arms[j] = is_pressing(j, normals[j]) ? (arms[j] - center) / unit_length : Vec3(0);
+  UNROLL for (int digit = 0; digit < DIGITS; ++digit) shares[digit] = strength_of(digit) / unit_strength;
+}
+
+#endif
 
 void load_contacts(uint grip) {
-  shares = Real[](scene.thumb_strength, scene.index_strength, scene.middle_strength, scene.ring_strength, scene.little_strength,
-                  scene.palm_strength);
+  read_contacts(grip);
   Real count = Real(0), strongest = Real(0), weakest = NO_DISTANCE;
   center = Vec3(0);
   friction = scene.friction;
-  own_center = Vec3(scene.center_x, scene.center_y, scene.center_z);
-  gravity = scene.gravity;
   displaced = Six(Vec3(0), Vec3(0));
-  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
-    arms[j] = contact_vector(2 * j, grip);
-    normals[j] = contact_vector(2 * j + 1, grip);
-    bool presses = is_pressing(j);
-    center += presses ? arms[j] : Vec3(0);
+  UNROLL for (int k = 0; k < JOINTS; ++k) {
+    int j = joint_in_order(k);
+    bool presses = is_pressing(j, normal_of(j));
+    Real strength = strength_of(digit_in_order(k));
+    center += presses ? place_at(j) : Vec3(0);
     count += presses ? Real(1) : Real(0);
-    strongest = presses ? max(strongest, shares[digit_of(j)]) : strongest;
-    weakest = presses ? min(weakest, shares[digit_of(j)]) : weakest;
+    strongest = presses ? max(strongest, strength) : strongest;
+    weakest = presses ? min(weakest, strength) : weakest;
   }
   center /= max(count, Real(1));
   unit_length = max(LEAST_LENGTH, scene.torsion);
-  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
-    arms[j] = is_pressing(j) ? arms[j] - center : Vec3(0);
-    unit_length = max(unit_length, length(arms[j]));
-  }
+  UNROLL for (int j = 0; j < JOINTS; ++j)
+    unit_length = is_pressing(j, normal_of(j)) ? max(unit_length, length(place_at(j) - center)) : unit_length;
   if (BARE) {
-    bool is_pinch = is_pressing(THUMB_TIP) && is_pressing(INDEX_TIP) && arms[THUMB_TIP] != arms[INDEX_TIP];
-    middle = (arms[THUMB_TIP] + arms[INDEX_TIP]) / Real(2);
+    bool has_thumb = is_pressing(THUMB_TIP, normal_of(THUMB_TIP)), has_index = is_pressing(INDEX_TIP, normal_of(INDEX_TIP));
+    Vec3 thumb = has_thumb ? place_at(THUMB_TIP) - center : Vec3(0), index = has_index ? place_at(INDEX_TIP) - center : Vec3(0);
+    middle = (thumb + index) / Real(2);
     are_alone = count == Real(2);
-    line = is_pinch ? normalize(arms[INDEX_TIP] - arms[THUMB_TIP]) : Vec3(0);
+    line = has_thumb && has_index && thumb != index ? normalize(index - thumb) : Vec3(0);
   }
-  unit_force = strongest > Real(0) ? strongest : Real(1);
+  unit_strength = unit_force = strongest > Real(0) ? strongest : Real(1);
   dear = UNRESISTED_EFFORT * (strongest > Real(0) ? strongest / weakest : Real(1));
   gamma = scene.torsion / unit_length;
-  [[unroll]] for (int j = 0; j < JOINTS; ++j) arms[j] /= unit_length;
-  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) shares[digit] /= unit_force;
+  keep_arms();
   if (PLANE_GAP >= 0 && scene.tip_radii > Real(0)) {
     Real gap = real_out[uint(PLANE_GAP) * push.stride + grip];
     unit_force *= strength_at(gap - grip_axis(AXIS_HAND_SCALE, grip) * scene.tip_radii);
@@ -95,26 +123,26 @@ void load_contacts(uint grip) {
 // h(u), and the point of Z where it is attained: of each digit the contact that does most, where it does more than nothing.
 Real support(Six direction, out Six point) {
   point = Six(-displaced.first, -displaced.second);
-  Real most[DIGITS];
-  Vec3 arm[DIGITS], normal[DIGITS];
-  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) {
-    most[digit] = Real(0);
-    arm[digit] = Vec3(0);
-    normal[digit] = Vec3(0);
-  }
-  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
-    if (TASK == EFFORT_TIPS && j != THUMB_TIP && j != INDEX_TIP) continue;
-    int digit = digit_of(j);
-    Real value = press(arms[j], normals[j], friction, gamma, direction);
-    bool is_more = value > most[digit];
-    most[digit] = is_more ? value : most[digit];
-    arm[digit] = is_more ? arms[j] : arm[digit];
-    normal[digit] = is_more ? normals[j] : normal[digit];
-  }
-  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) {
-    Six wrench = pressed(arm[digit], normal[digit], friction, gamma, direction);
-    point.first += shares[digit] * wrench.first;
-    point.second += shares[digit] * wrench.second;
+  Real most = Real(0);
+  Vec3 arm = Vec3(0), normal = Vec3(0);
+  UNROLL for (int k = 0; k < JOINTS; ++k) {
+    int j = joint_in_order(k);
+    if (TASK != EFFORT_TIPS || j == THUMB_TIP || j == INDEX_TIP) {
+      Vec3 arm_here = arm_of(j), normal_here = normal_of(j);
+      Real value = press(arm_here, normal_here, friction, gamma, direction);
+      bool is_more = value > most;
+      most = is_more ? value : most;
+      arm = is_more ? arm_here : arm;
+      normal = is_more ? normal_here : normal;
+    }
+    if (ends_digit(k)) {
+      Six wrench = pressed(arm, normal, friction, gamma, direction);
+      Real share = share_of(digit_in_order(k));
+      point.first += share * wrench.first;
+      point.second += share * wrench.second;
+      most = Real(0);
+      arm = normal = Vec3(0);
+    }
   }
   return dot6(direction, point);
 }
@@ -140,7 +168,7 @@ Six wanted_for(Vec4 weight, Vec4 tilted) {
 }
 
 struct Solve {
-  Six wanted, cut;  // the direction of the last lower bound
+  Six wanted;
   Real size, low, effort, cut_height;
   int pivots;
   bool done, is_enough, is_known, is_beyond;  // `is_enough`: forces of an effort that need not be known closer are found
@@ -150,7 +178,7 @@ Solve start(Six wanted) {
   Solve solve;
   solve.wanted = wanted;
   solve.size = sqrt(dot6(solve.wanted, solve.wanted));
-  solve.cut = Six(Vec3(0), Vec3(0));
+  set_column(CUT, Six(Vec3(0), Vec3(0)), true);
   solve.cut_height = Real(1);
   solve.low = solve.effort = Real(0);
   solve.pivots = 0;
@@ -178,8 +206,7 @@ void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is
   Real height = support(direction, point), value = dot6(direction, solve.wanted);
   bool is_higher = value > Real(0) && value > solve.low * height;
   solve.low = is_higher ? (height > Real(0) ? value / height : INFINITE) : solve.low;
-  solve.cut.first = is_higher ? direction.first : solve.cut.first;
-  solve.cut.second = is_higher ? direction.second : solve.cut.second;
+  set_column(CUT, direction, is_higher);
   solve.cut_height = is_higher ? height : solve.cut_height;
   bool is_never = solve.low > dear * solve.size;
   solve.is_beyond = solve.low > too_much;
@@ -201,8 +228,6 @@ void finish(inout Solve solve) {
   solve.effort = holds ? cost.real : INFINITE;
   solve.is_enough = solve.is_enough && holds;
 }
-
-Real kept(int plane, int offset, uint grip) { return plane >= 0 ? real_out[uint(plane + offset) * push.stride + grip] : NOT_A_NUMBER; }
 
 // Where a grip's turns ran out before its states did.
 void leave_unfinished(uint grip, bool is_unfinished) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What core/effort.cpp does within a solve: what a contact can do, and the basis of the simplex method. No twin of its functions: the basis lies in
-// registers, and nothing branches that copies it.
+// What core/effort.cpp does within a solve: what a contact can do, and the basis of the simplex method. No twin of its functions: in the wide build
+// the basis lies in registers, and nothing branches that copies it.
 #ifndef GAUGE_GLSL
 #define GAUGE_GLSL
 
-#extension GL_EXT_control_flow_attributes : require
-
+#include "build.glsl"
 #include "real.glsl"
 
 #if REAL_IS_DOUBLE
@@ -29,14 +28,49 @@ struct Cost {
   Real real, artificial, least;
 };
 
-// Columns are points of Z or artificial; rows of the inverse. Indices are constants wherever loops are unrolled: registers then.
+// Rows of the inverse, and which columns are artificial. Indices are constants wherever loops are unrolled: registers then.
 struct Basis {
-  Six points[6];
   Six inverse[6];
   bool is_artificial[6];
 };
 
 Basis basis;
+
+// Columns of the basis, points of Z or artificial, and the direction of the last lower bound: they are rarely read.
+#define CUT 6
+#if SMALL
+
+shared Real columns[SOLVE_REALS * GROUP_SIZE];
+
+Six column(int c) {
+  uint at = uint(6 * c) * GROUP_SIZE + gl_LocalInvocationIndex;
+  return Six(Vec3(columns[at], columns[at + GROUP_SIZE], columns[at + 2 * GROUP_SIZE]),
+             Vec3(columns[at + 3 * GROUP_SIZE], columns[at + 4 * GROUP_SIZE], columns[at + 5 * GROUP_SIZE]));
+}
+
+void set_column(int c, Six six, bool is_set) {
+  if (!is_set) return;
+  uint at = uint(6 * c) * GROUP_SIZE + gl_LocalInvocationIndex;
+  columns[at] = six.first.x;
+  columns[at + GROUP_SIZE] = six.first.y;
+  columns[at + 2 * GROUP_SIZE] = six.first.z;
+  columns[at + 3 * GROUP_SIZE] = six.second.x;
+  columns[at + 4 * GROUP_SIZE] = six.second.y;
+  columns[at + 5 * GROUP_SIZE] = six.second.z;
+}
+
+#else
+
+Six columns[7];
+
+Six column(int c) { return columns[c]; }
+
+void set_column(int c, Six six, bool is_set) {
+  columns[c].first = is_set ? six.first : columns[c].first;
+  columns[c].second = is_set ? six.second : columns[c].second;
+}
+
+#endif
 
 Real dot6(Six a, Six b) { return dot(a.first, b.first) + dot(a.second, b.second); }
 
@@ -64,28 +98,31 @@ void levels_of(Six wanted, out Real levels[6]) {
 }
 
 // Where `anew`: six artificial columns at right angles with equal shares of `wanted`. Where `warm`: the last basis for another load, where a column
-// whose level would be negative gives way to an artificial one the other way. Both without branches: each would copy the basis.
+// whose level would be negative gives way to an artificial one the other way. Both without branches in the wide build: each would copy the basis.
 void restart(Six wanted, Real rounding, bool anew, bool warm) {
+#if SMALL
+  if (!anew && !warm) return;
+#endif
   Real size = sqrt(dot6(wanted, wanted));
   Real equal = sqrt(Real(1) / Real(6));
   Six mirror = Six(wanted.first / size - Vec3(equal), wanted.second / size - Vec3(equal));
   Real square = dot6(mirror, mirror);
   Real scale = square > Real(0) ? Real(2) / square : Real(0);
-  [[unroll]] for (int r = 0; r < 6; ++r) {
+  UNROLL for (int r = 0; r < 6; ++r) {
     Real along = value_of(r, mirror) * scale;
-    Vec3 first = -along * mirror.first, second = -along * mirror.second;
+    Six mirrored = Six(-along * mirror.first, -along * mirror.second);
     if (r < 3) {
-      first[r < 3 ? r : 0] += Real(1);
+      mirrored.first[r < 3 ? r : 0] += Real(1);
     } else {
-      second[r < 3 ? 0 : r - 3] += Real(1);
+      mirrored.second[r < 3 ? 0 : r - 3] += Real(1);
     }
     bool is_turned = warm && dot6(basis.inverse[r], wanted) < -rounding;
     Real sense = is_turned ? Real(-1) : Real(1);
     basis.is_artificial[r] = basis.is_artificial[r] || is_turned || anew;
-    basis.points[r].first = anew ? first : sense * basis.points[r].first;
-    basis.points[r].second = anew ? second : sense * basis.points[r].second;
-    basis.inverse[r].first = anew ? first : sense * basis.inverse[r].first;
-    basis.inverse[r].second = anew ? second : sense * basis.inverse[r].second;
+    Six before = column(r);
+    set_column(r, Six(anew ? mirrored.first : sense * before.first, anew ? mirrored.second : sense * before.second), anew || is_turned);
+    basis.inverse[r].first = anew ? mirrored.first : sense * basis.inverse[r].first;
+    basis.inverse[r].second = anew ? mirrored.second : sense * basis.inverse[r].second;
   }
 }
 
@@ -115,9 +152,9 @@ bool enter(Six point, Real levels[6], Real rounding, bool allowed) {
   Real turned[6];
   levels_of(point, turned);
   Real largest = Real(0);
-  [[unroll]] for (int r = 0; r < 6; ++r) largest = max(largest, abs(turned[r]));
+  UNROLL for (int r = 0; r < 6; ++r) largest = max(largest, abs(turned[r]));
   bool has_pivot = false;
-  [[unroll]] for (int r = 0; r < 6; ++r) {
+  UNROLL for (int r = 0; r < 6; ++r) {
     bool may_be_idle = basis.is_artificial[r] && levels[r] <= rounding;
     has_pivot = has_pivot || (may_be_idle ? abs(turned[r]) : turned[r]) > LEAST_PIVOT * largest;
   }
@@ -125,7 +162,7 @@ bool enter(Six point, Real levels[6], Real rounding, bool allowed) {
   Real least = NO_DISTANCE, pivot = Real(0);
   bool is_artificial = false;
   Six row = Six(Vec3(0), Vec3(0));
-  [[unroll]] for (int r = 0; r < 6; ++r) {
+  UNROLL for (int r = 0; r < 6; ++r) {
     Real summed = dot(abs(basis.inverse[r].first), abs(point.first)) + dot(abs(basis.inverse[r].second), abs(point.second));
     Real least_pivot = LEAST_PIVOT * (has_pivot ? largest : summed);
     bool is_idle = basis.is_artificial[r] && levels[r] <= rounding && turned[r] < -least_pivot;
@@ -145,36 +182,38 @@ bool enter(Six point, Real levels[6], Real rounding, bool allowed) {
   bool is_found = leaves < 6;
   Real share = is_found ? Real(1) / pivot : Real(0);
   row = Six(row.first * share, row.second * share);
-  [[unroll]] for (int r = 0; r < 6; ++r) {
+  UNROLL for (int r = 0; r < 6; ++r) {
     bool is_this = r == leaves;
     Real turn = is_found ? turned[r] : Real(0);
     basis.inverse[r].first = is_this ? row.first : basis.inverse[r].first - turn * row.first;
     basis.inverse[r].second = is_this ? row.second : basis.inverse[r].second - turn * row.second;
-    basis.points[r].first = is_this ? point.first : basis.points[r].first;
-    basis.points[r].second = is_this ? point.second : basis.points[r].second;
     basis.is_artificial[r] = !is_this && basis.is_artificial[r];
   }
+#if SMALL
+  set_column(leaves, point, is_found);
+#else
+  UNROLL for (int r = 0; r < 6; ++r) set_column(r, point, r == leaves);
+#endif
   return is_found;
 }
 
-// X + (1 - X B) X of the inverse X: rounding that rank-one updates gathered is squared, where there is not too much of it.
+// X + (1 - X B) X of the inverse X, row by row in place: rounding that rank-one updates gathered is squared, where there is not too much of it.
 void refine() {
-  Six rows[6];
   Real most = Real(0);
-  [[unroll]] for (int r = 0; r < 6; ++r) {
-    Six row = basis.inverse[r];
-    rows[r] = row;
-    [[unroll]] for (int c = 0; c < 6; ++c) {
-      Real error = (r == c ? Real(1) : Real(0)) - dot6(row, basis.points[c]);
-      most = max(most, abs(error));
-      rows[r].first += error * basis.inverse[c].first;
-      rows[r].second += error * basis.inverse[c].second;
-    }
+  UNROLL for (int c = 0; c < 6; ++c) {
+    Six point = column(c);
+    UNROLL for (int r = 0; r < 6; ++r) most = max(most, abs((r == c ? Real(1) : Real(0)) - dot6(basis.inverse[r], point)));
   }
-  bool is_near = most < Real(0.1);
-  [[unroll]] for (int r = 0; r < 6; ++r) {
-    basis.inverse[r].first = is_near ? rows[r].first : basis.inverse[r].first;
-    basis.inverse[r].second = is_near ? rows[r].second : basis.inverse[r].second;
+  Real share = most < Real(0.1) ? Real(1) : Real(0);
+  UNROLL for (int r = 0; r < 6; ++r) {
+    Six row = basis.inverse[r], refined = row;
+    UNROLL for (int c = 0; c < 6; ++c) {
+      Real error = share * ((r == c ? Real(1) : Real(0)) - dot6(row, column(c)));
+      refined.first += error * basis.inverse[c].first;
+      refined.second += error * basis.inverse[c].second;
+    }
+    basis.inverse[r].first = refined.first;
+    basis.inverse[r].second = refined.second;
   }
 }
 
@@ -182,13 +221,14 @@ void refine() {
 void balanced_levels(Six wanted, out Real levels[6]) {
   levels_of(wanted, levels);
   Six rest = wanted;
-  [[unroll]] for (int r = 0; r < 6; ++r) {
-    rest.first -= levels[r] * basis.points[r].first;
-    rest.second -= levels[r] * basis.points[r].second;
+  UNROLL for (int r = 0; r < 6; ++r) {
+    Six point = column(r);
+    rest.first -= levels[r] * point.first;
+    rest.second -= levels[r] * point.second;
   }
   Real more[6];
   levels_of(rest, more);
-  [[unroll]] for (int r = 0; r < 6; ++r) levels[r] += more[r];
+  UNROLL for (int r = 0; r < 6; ++r) levels[r] += more[r];
 }
 
 #endif

@@ -6,6 +6,12 @@
 #include "hand_table.glsl"
 #include "trig.glsl"
 
+struct Placement {
+  Mat3 rotation;
+  Vec3 translation;
+  Real scale;
+};
+
 struct FingerPoints {
   Vec3 pip;
   Vec3 dip;
@@ -25,18 +31,20 @@ Vec3 segment_end(FingerFrame frame, Vec3 start, Real length, Real angle) {
 
 FingerPoints finger_points(FingerFrame frame, Vec3 mcp, Vec3 lengths, Vec3 angles) {
   FingerPoints points;
-  points.pip = segment_end(frame, mcp, lengths.x, angles.x);
-  points.dip = segment_end(frame, points.pip, lengths.y, angles.x + angles.y);
-  points.tip = segment_end(frame, points.dip, lengths.z, angles.x + angles.y + angles.z);
+  Vec3 end = mcp;
+  Real angle = Real(0);
+  UNROLL_PRECISE for (int k = 0; k < 3; ++k) {
+    angle += angles[k];
+    end = segment_end(frame, end, lengths[k], angle);
+    if (k == 0) points.pip = end;
+    if (k == 1) points.dip = end;
+  }
+  points.tip = end;
   return points;
 }
 
 FingerPoints thumb_points(FingerFrame frame, Vec3 lengths, Vec3 angles) {
-  FingerPoints points;
-  points.pip = segment_end(frame, frame.base, lengths.x, angles.x);
-  points.dip = segment_end(frame, points.pip, lengths.y, angles.x - angles.y);
-  points.tip = segment_end(frame, points.dip, lengths.z, angles.x - angles.y - angles.z);
-  return points;
+  return finger_points(frame, frame.base, lengths, Vec3(angles.x, -angles.y, -angles.z));
 }
 
 Vec3 tip_to_tip(Real closure, out Vec3 slope) {

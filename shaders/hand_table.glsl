@@ -3,8 +3,7 @@
 #ifndef HAND_TABLE_GLSL
 #define HAND_TABLE_GLSL
 
-#extension GL_EXT_control_flow_attributes : require
-
+#include "build.glsl"
 #include "real.glsl"
 
 struct FingerFrame {
@@ -16,8 +15,16 @@ struct FingerFrame {
 layout(constant_id = CONST_GAP_TABLE_SIZE) const int GAP_ENTRIES = GAP_TABLE_SIZE;
 layout(std140, binding = BINDING_HAND) uniform HandBlock { Vec4 hand_table[HAND_VECTORS]; };
 
-// All of it but the table of gaps. `main` loads it first of all: there alone lavapipe reads a constant place once for all lanes. In a
-// loop, in a branch, and where a lane may have returned, it gathers lane by lane.
+#if SMALL
+
+#define hand_vectors hand_table
+void load_hand() {}
+Vec4 finger_vector(int finger, int place) { return hand_table[HAND_FINGER_STRIDE * finger + place]; }
+
+#else
+
+// All of it but the table of gaps. `main` loads it outside of loops and branches, before any lane may have returned: there alone lavapipe reads a
+// constant place once for all lanes; elsewhere it gathers lane by lane.
 Vec4 hand_vectors[HAND_TABLE];
 
 void load_hand() {
@@ -30,6 +37,8 @@ Vec4 finger_vector(int finger, int place) {
   [[unroll]] for (int f = 1; f < FINGERS; ++f) vector = finger == f ? hand_vectors[HAND_FINGER_STRIDE * f + place] : vector;
   return vector;
 }
+
+#endif
 
 FingerFrame hand_frame(int finger) {
   return FingerFrame(finger_vector(finger, 0).xyz, finger_vector(finger, 1).xyz, finger_vector(finger, 2).xyz);

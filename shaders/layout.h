@@ -46,7 +46,7 @@
 #define GAP_TABLE_SIZE 257          // entries of the table that starts the gap's inverse
 #define GAP_TABLE_LARGEST 1025      // .. that the hand's block has room for
 #define QUADRATURE_POINTS 32        // Gauss-Legendre points a piece: 1e-10 of the capacity where the plane passes close to an arc's pole
-#define MAX_OUTLINE 32              // elements that fit a pipeline's specialization constants
+#define MAX_OUTLINE 32              // elements that a kernel copies
 #define WHOLE_DEGREES 181           // tilts 0..180 at which the lip's capacity is tabulated
 #define HALF_UNIT RATIO(1, 1024)    // m: unit of 16-bit samples, so that halves too small to be normal are under 60 nm
 #define LOOP_DELAYS 4               // whole samples of delay of a haptic loop, at most
@@ -207,7 +207,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define BINDING_REAL_OUT 2          // Real[planes * n]
 #define BINDING_UINT_OUT 3          // uint[planes * n]
 #define BINDING_HAND 4              // uniform: vec4[HAND_VECTORS]
-#define BINDING_OUTLINE 5           // readonly: Real[OUTLINE_STRIDE * count], storage or uniform by variant
+#define BINDING_OUTLINE 5           // readonly: Real[OUTLINE_STRIDE * count]
 #define BINDING_LATTICE 6           // texel buffer of uint: a float's bits each, or two halves in units of HALF_UNIT, the first in the low bits
 #define BINDING_CAVITY 7            // readonly: Real[OUTLINE_STRIDE * pieces], y ascending
 #define BINDING_TILTS 8             // readonly: Real[3 * tilts]: sine, cosine, tilt
@@ -233,6 +233,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define ELEMENT_CODE(side, supports) ((side) + 4 * (supports))  /* its parts: */
 #define SUPPORTS_OF(code) (((code) + 1) >> 2)
 #define SIDE_OF(code) ((code) - 4 * SUPPORTS_OF(code))
+#define NO_LID 0xfffffffeu           // no element, and not the one of a lattice, which is -1
 #define FAR_AWAY 1048576.0           // m: where other elements are that hold no step back
 
 // The hand as vec4s. Per finger: base and L0; forward and L1; palmward and L2; radii 0..3; radius 4 and L3.
@@ -254,6 +255,11 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define STATE_STRIDE 8
 #define STATES_IN_BLOCK 256         // in double 16 KiB, the smallest uniform range that Vulkan grants
 
+// The placed hand: the columns of its rotation, its translation, and which points touched before they moved, a bit each.
+#define PLACED_TRANSLATION 9
+#define PLACED_BEFORE 12
+#define PLACED_STRIDE 13
+
 // A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for EFFORT_SAFE, the angle of the tilt before (-1: none)
 // and the number of its fill, else the angle of its tilt and its fill as a fraction.
 // Where a joint presses: the place on the surface and the inward normal there; both 0 where it does not. A sphere between joints has the place
@@ -265,6 +271,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define EFFORT_PUSH 3               // of the kernel of reserves: the largest force beside the weight
 #define EFFORT_FRICTION 4           // .. the least friction with which all states are held
 #define DEVICE_PIVOTS 200           // of a solve
+#define SOLVE_REALS 42              // .. in the group's memory, an invocation, in the small build
 
 // Liquid of one fill and tilt: volume, mass, lean, height, poured.
 #define LIQUID_STRIDE 5
@@ -274,7 +281,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_POSE 1
 #define CONST_SDF_KIND 2
 #define CONST_OUTLINE_COUNT 3
-#define CONST_LID 4                 // index of the mouth's element in the outline, -1: none
+#define CONST_ARCS 4                // bits of the elements that may be arcs, where the outline is copied; -1: all
 #define CONST_TORQUE 5
 #define CONST_REFERENCE 6
 #define CONST_TABLE 7               // whether the scene has a table, bool
@@ -286,6 +293,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_ARM 13                // of the grips: azimuths at which the holder may take the vessel; 0: the scene has no arm
 #define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: where joints press; -1: not computed
 #define CONST_EFFORT_TASK 21        // of the efforts and reserves: EFFORT_WORST .. EFFORT_FRICTION
+#define CONST_PLACED 22             // first of PLACED_STRIDE planes, scratch: what the kernels of a grip hand on
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
 #define CONST_TRACE_STEPS 41
 #define CONST_ADVANCE_STEPS 42
@@ -295,7 +303,6 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_FRICTION 46           // of the loop: whether any case has friction, bool
 #define CONST_EFFORT_TOLERANCE 47   // Real, of an effort's bracket; 1e-3 where nothing is given
 #define CONST_FEW_STEPS 48          // of the grips: whether their steps are fewer than the core's, so that TURN_BUDGET holds, bool
-#define CONST_OUTLINE 64            // + OUTLINE_STRIDE * element + value, Real
 #define CONST_PLANE 320             // + field: first plane, or -1: not computed
 
 #define GROUP_SIZE 64
@@ -307,7 +314,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define SELECT_SCORES_TO_SECOND 3
 #define SELECT_LARGEST 64           // best grips that the device can select; more are selected by the host
 
-// A vessel's and a scene's scalars, one uniform block.
+// A vessel's and a scene's scalars, one uniform block. What branches on them alone costs time: lavapipe takes such numbers for constants, and may
+// compile the kernel anew in every dispatch.
 #ifdef __cplusplus
 template <class Real>
 #endif
@@ -333,6 +341,7 @@ struct Parameters {
   Real tip_radii;         // m, of thumb and index finger together, at the scene's scale; 0: strengths are the same at every opening
   Real pour_sense;        // +1 away, -1 towards
   Real table_top;         // m, the table's height and the clearance
+  Real lid_radius, lid_height;                // edge of the mouth's element in the outline, m; without one no point is above it
   Real shoulder_x, shoulder_y, shoulder_z;    // vessel frame, m
   Real upper_arm, forearm, wrist_radius, elbow_radius;                     // m
   Real flexion, extension, ulnar, radial, pronation, supination;           // ranges, rad
@@ -343,6 +352,7 @@ struct Parameters {
   uint
 #endif
       outline_count,      // for the variant that reads its outline from a buffer
+      lid,                // index of the mouth's element, NO_LID: none
       cavity_count, lattice_nx, lattice_ny, lattice_nz, fills, tilts, quadrature_count;
 };
 

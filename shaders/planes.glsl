@@ -16,6 +16,13 @@ void put_real(int plane, int offset, uint grip, Real value) {
   if (plane >= 0) real_out[uint(plane + offset) * push.stride + grip] = value;
 }
 
+Real kept(int plane, int offset, uint grip) { return plane >= 0 ? real_out[uint(plane + offset) * push.stride + grip] : NOT_A_NUMBER; }
+
+Vec3 kept_vector(int plane, uint grip) {
+  uint at = uint(plane) * push.stride + grip;
+  return Vec3(real_out[at], real_out[at + push.stride], real_out[at + 2u * push.stride]);
+}
+
 void put_uint(int plane, uint grip, uint value) {
   if (plane >= 0) uint_out[uint(plane) * push.stride + grip] = value;
 }

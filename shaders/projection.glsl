@@ -62,9 +62,12 @@ Vec3 segment_angles(FingerMotion motion) { return motion.origin + motion.at * mo
 
 Bend bend_finger(Vec3 lengths, Vec3 angles) {
   Vec3 sines, cosines;
-  sine_cosine(angles.x, sines.x, cosines.x);
-  sine_cosine(angles.y, sines.y, cosines.y);
-  sine_cosine(angles.z, sines.z, cosines.z);
+  UNROLL_PRECISE for (int k = 0; k < 3; ++k) {
+    Real s, c;
+    sine_cosine(angles[k], s, c);
+    sines[k] = s;
+    cosines[k] = c;
+  }
   return Bend(lengths * cosines, lengths * sines);
 }
 
@@ -72,7 +75,8 @@ Place watched_place(Finger finger, Bend bend, Vec3 rates, int number) {
   int bone = number / BONE_PLACES;
   bool is_end = number % BONE_PLACES == BETWEEN;
   Real share = is_end ? Real(1) : Real(number % BONE_PLACES + 1) / Real(BONE_PLACES);
-  Vec3 parts = Vec3(bone == 0 ? share : Real(1), bone == 0 ? Real(0) : bone == 1 ? share : Real(1), bone == 2 ? share : Real(0));
+  Vec3 places = Vec3(Real(number + 1), Real(number + 1 - BONE_PLACES), Real(number + 1 - 2 * BONE_PLACES));
+  Vec3 parts = clamp(places / Real(BONE_PLACES), Vec3(0), Vec3(1));
   Vec3 along = parts * bend.along;
   Vec3 across = parts * bend.across;
   Vec3 sweep = parts * finger.lengths * abs(rates);
@@ -82,8 +86,8 @@ Place watched_place(Finger finger, Bend bend, Vec3 rates, int number) {
   place.speed = sweep.x + sweep.y + sweep.z;
   place.bend = dot(sweep, abs(rates));
   place.jerk = dot(sweep, rates * rates);
-  Real start_radius = bone == 0 ? finger.radii.x : bone == 1 ? finger.radii.y : finger.radii.z;
-  Real end_radius = bone == 0 ? finger.radii.y : bone == 1 ? finger.radii.z : finger.radii.w;
+  Real start_radius = finger.radii[bone];
+  Real end_radius = finger.radii[bone + 1];
   precise Vec3 center = finger.mcp + (along.x + along.y + along.z) * finger.frame.forward +
                         (across.x + across.y + across.z) * finger.frame.palmward;
   place.ball = Ball(center, is_end ? end_radius : start_radius + share * (end_radius - start_radius));
@@ -138,12 +142,11 @@ int place_to_see(int number, int joint, int touched) {
   return seen == touched ? seen + 1 : seen;
 }
 
-// No index that varies: the numbers stay in registers.
 int soonest_place(FingerWatch watch, int joint, out Real due) {
   int first = max(joint, 0) * BONE_PLACES;
   int soonest = first;
   due = NO_DISTANCE;
-  for (int k = 0; k < PLACES; ++k) {
+  UNROLL_PRECISE for (int k = 0; k < PLACES; ++k) {
     bool is_sooner = k >= first && until[k] < due;
     due = is_sooner ? until[k] : due;
     soonest = is_sooner ? k : soonest;
@@ -154,16 +157,9 @@ int soonest_place(FingerWatch watch, int joint, out Real due) {
 void see_place(Real separation, Real step, FingerMotion motion, inout FingerWatch watch) {
   int bone = watch.number / BONE_PLACES;
   bool is_end = watch.number % BONE_PLACES == BETWEEN;
-  watch.separations.x = is_end && bone == 0 ? separation : watch.separations.x;
-  watch.separations.y = is_end && bone == 1 ? separation : watch.separations.y;
-  watch.separations.z = is_end && bone == 2 ? separation : watch.separations.z;
-  if (BETWEEN > 0) {
-    watch.clear.x = bone == 0 ? smaller(watch.clear.x, separation) : watch.clear.x;
-    watch.clear.y = bone == 1 ? smaller(watch.clear.y, separation) : watch.clear.y;
-    watch.clear.z = bone == 2 ? smaller(watch.clear.z, separation) : watch.clear.z;
-  }
-  Real free_until = motion.at + step;
-  for (int k = 0; k < PLACES; ++k) until[k] = k == watch.number ? free_until : until[k];
+  if (is_end) watch.separations[bone] = separation;
+  if (BETWEEN > 0) watch.clear[bone] = smaller(watch.clear[bone], separation);
+  until[watch.number] = motion.at + step;
 }
 
 int decide_turn(Vec3 clear, FingerMotion motion, out bool blocked) {
@@ -175,14 +171,16 @@ int decide_turn(Vec3 clear, FingerMotion motion, out bool blocked) {
   return blocked ? 3 : joint;
 }
 
-// By selection and without branches: in nearly every turn of the loop some lane takes each of the core's ways, and then all wait for it.
+// By selection where the core branches: in nearly every turn of the loop some lane takes each of its ways, and then all wait for it. SwiftShader does not
+// compile chains of selections that are much longer.
 RestingFinger rest_finger(Finger finger, Real limit) {
   RestingFinger resting;
   resting.undecided = false;
   FingerMotion motion = start_motion(limit);
   FingerWatch watch = FingerWatch(Vec3(0), Vec3(0), Vec3(NO_DISTANCE), 0, -1, true, true);
-  for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
-  for (;;) {
+  UNROLL_PRECISE for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
+  // Left at its head alone: of a value that a loop computes and that is read behind it, llvmpipe keeps what the last lane's turn makes of it.
+  [[dont_unroll]] for (bool ends_here = false; !ends_here;) {
     Place place = watched_place(finger, bend_finger(finger.lengths, segment_angles(motion)), motion.rates, watch.number);
     Support support = support_at(place.ball.place);
     Real separation = support.distance - place.ball.radius;
@@ -193,7 +191,8 @@ RestingFinger rest_finger(Finger finger, Real limit) {
     bool meets = !watch.looks && separation < STOP_TOLERANCE;
     watch.before = seen_all && watch.swings ? watch.separations : watch.before;
     watch.swings = watch.swings && !(seen_all && motion.joint >= 0);
-    if (seen_all && motion.joint >= 3) break;
+    ends_here = seen_all && motion.joint >= 3;
+    if (ends_here) continue;
     bool blocked;
     int decided = decide_turn(BETWEEN > 0 ? watch.clear : watch.separations, motion, blocked);
     motion.blocked = motion.blocked || seen_all && blocked;
@@ -210,17 +209,14 @@ RestingFinger rest_finger(Finger finger, Real limit) {
     joint = ends ? is_spent ? 3 : motion.joint + 1 : joint;
     bool turns = joint != motion.joint;
     watch.touched = meets ? watch.number : turns ? -1 : watch.touched;
-    FingerMotion turned = turn_joint(motion, joint);
-    motion.origin = turns ? turned.origin : motion.origin;
-    motion.rates = turns ? turned.rates : motion.rates;
+    if (turns) {
+      motion = turn_joint(motion, joint);
+      if (BETWEEN > 0) watch.clear = Vec3(NO_DISTANCE);
+    }
     motion.joint = joint;
-    motion.at = turns ? Real(0) : motion.at;
-    motion.end = turns ? turned.end : motion.end;
-    motion.steps = turns ? 0 : motion.steps;
-    if (BETWEEN > 0) watch.clear = turns ? Vec3(NO_DISTANCE) : watch.clear;
     watch.looks = turns || watch.looks && !seen_all;
     watch.number = turns ? place_to_see(from * BONE_PLACES, joint, watch.touched) : moves ? soonest : next;
-    if (watch.number >= PLACES) break;
+    ends_here = watch.number >= PLACES;
   }
   Vec3 angles = segment_angles(motion);
   resting.angles = Vec3(angles.x, angles.y - angles.x, angles.z - angles.y);

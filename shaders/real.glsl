@@ -45,6 +45,7 @@ layout(constant_id = CONST_STOP_TOLERANCE) const Real STOP_TOLERANCE = NAMED_STO
 layout(constant_id = CONST_TRACE_STEPS) const int LIMIT_TRACE_STEPS = TRACE_STEPS;
 layout(constant_id = CONST_ADVANCE_STEPS) const int LIMIT_ADVANCE_STEPS = ADVANCE_STEPS;
 layout(constant_id = CONST_GAP_STEPS) const int LIMIT_GAP_STEPS = GAP_STEPS;
+layout(constant_id = CONST_FEW_STEPS) const bool FEW_STEPS = false;
 
 // For numbers that are not NaN. A driver's min and max handle NaN, and cost three times as much.
 Real smaller(Real a, Real b) { return b < a ? b : a; }

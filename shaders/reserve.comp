@@ -15,31 +15,39 @@
 int raise_turns = 0;  // in which this grip searched for a friction
 
 // The friction at which h(u) comes to a value: Newton's method, as EffortSolver::least_friction. What each contact does along u without friction, and
-// what a friction of 1 adds, are found once: they take most of the time, and are the same in all turns.
+// what a friction of 1 adds, are the same in all turns: where they are kept, they are found once.
 Real least_friction(Six direction, Real value) {
-  Real along[JOINTS], across[JOINTS];
-  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
-    along[j] = press(arms[j], normals[j], Real(0), gamma, direction);
-    across[j] = press(arms[j], normals[j], Real(1), gamma, direction) - along[j];
+#if !SMALL
+  Real along_copy[JOINTS], across_copy[JOINTS];
+  UNROLL for (int j = 0; j < JOINTS; ++j) {
+    along_copy[j] = press(arm_of(j), normal_of(j), Real(0), gamma, direction);
+    across_copy[j] = press(arm_of(j), normal_of(j), Real(1), gamma, direction) - along_copy[j];
   }
+#endif
   Real least = friction;
   ++raise_turns;  // the end of the loop, too
   [[dont_unroll]] for (int turn = 0; turn < JOINTS; ++turn) {
     ++raise_turns;
     // h(u), and how it grows with the friction
-    Real most[DIGITS], slopes[DIGITS];
-    [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) most[digit] = slopes[digit] = Real(0);
-    [[unroll]] for (int j = 0; j < JOINTS; ++j) {
-      int digit = digit_of(j);
-      Real does = along[j] + least * across[j];
-      bool is_more = does > most[digit];
-      most[digit] = is_more ? does : most[digit];
-      slopes[digit] = is_more ? across[j] : slopes[digit];
-    }
-    Real height = Real(0), slope = Real(0);
-    [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) {
-      height += shares[digit] * most[digit];
-      slope += shares[digit] * slopes[digit];
+    Real height = Real(0), slope = Real(0), most = Real(0), growth = Real(0);
+    UNROLL for (int k = 0; k < JOINTS; ++k) {
+      int j = joint_in_order(k);
+#if SMALL
+      Real along = press(arm_of(j), normal_of(j), Real(0), gamma, direction);
+      Real across = press(arm_of(j), normal_of(j), Real(1), gamma, direction) - along;
+#else
+      Real along = along_copy[j], across = across_copy[j];
+#endif
+      Real does = along + least * across;
+      bool is_more = does > most;
+      most = is_more ? does : most;
+      growth = is_more ? across : growth;
+      if (ends_digit(k)) {
+        Real share = share_of(digit_in_order(k));
+        height += share * most;
+        slope += share * growth;
+        most = growth = Real(0);
+      }
     }
     if (turn > 0 && !(height > value)) return height < value && least >= MOST_FRICTION ? INFINITE : least;
     Real step = (height - value) / slope;
@@ -73,15 +81,10 @@ bool is_busy(uint grip) {
 }
 
 void main() {
-  if (gl_LocalInvocationIndex == 0u) busy_count = 0u;
-  barrier();
-  if (INVOCATION < push.count && is_busy(INVOCATION)) busy_grips[atomicAdd(busy_count, 1u)] = INVOCATION;
-  barrier();
-  bool has_grip = gl_LocalInvocationIndex < busy_count;
-  uint grip = 0u;
+  uint grip;
+  bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
   // loops of one turn instead of branches, as in effort.comp
   [[dont_unroll]] for (bool once = has_grip; once; once = false) {
-    grip = busy_grips[gl_LocalInvocationIndex];
     load_contacts(grip);
     Real sa, ca, sb, cb;
     sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
@@ -102,7 +105,6 @@ void main() {
   int raises = 0;
   int pivots = 0;  // since the inverse was refined
   Solve solve;
-  Six wanted;
   bool has_basis = false, is_warm = false, is_solving = false;
   int turns = 0;
   uint k = has_grip ? 0u : number;
@@ -112,11 +114,12 @@ void main() {
     bool is_new = !is_solving;
     while (k < number && !is_solving) {
       uint state = k == 0u ? hardest : k <= hardest ? k - 1u : k;
-      wanted = TASK == EFFORT_PUSH ? wanted_push(k) : wanted_for(states_in[2u * state], states_in[2u * state + 1u]);
+      Six wanted = TASK == EFFORT_PUSH ? wanted_push(k) : wanted_for(states_in[2u * state], states_in[2u * state + 1u]);
       if (k > 0u) enough = TASK == EFFORT_PUSH ? worst : Real(1);
       if (k > 0u) too_much = TASK == EFFORT_PUSH ? INFINITE : Real(1);
       bool may_pass = TASK == EFFORT_PUSH || friction <= low + FRICTION_STEP;
       is_solving = dot6(wanted, wanted) > Real(0) && !(may_pass && bound(wanted, has_basis) <= enough);
+      if (is_solving) solve = start(wanted);
       if (is_solving) continue;
       k += 1u;
       low = friction;
@@ -125,7 +128,6 @@ void main() {
     }
     is_new = is_new && is_solving;
     is_warm = is_new ? has_basis : is_warm;
-    if (is_new) solve = start(wanted);
     restart(solve.wanted, ROUNDING * solve.size, is_new && !has_basis, is_new && has_basis);
     has_basis = has_basis || is_new;
     [[dont_unroll]] for (bool once = is_solving && pivots >= FRESH_PIVOTS; once; once = false) {
@@ -148,7 +150,7 @@ void main() {
       // one call for both that ask: each call is compiled for itself
       bool asks = TASK == EFFORT_FRICTION && (is_first || (!is_held && !(friction >= MOST_FRICTION)));
       Real asked = friction;
-      [[dont_unroll]] for (; asks; asks = false) asked = least_friction(solve.cut, dot6(solve.cut, solve.wanted));
+      [[dont_unroll]] for (; asks; asks = false) asked = least_friction(column(CUT), dot6(column(CUT), solve.wanted));
       if (TASK == EFFORT_PUSH) {
         bool is_alone = k == 0u;
         worst = is_alone ? (solve.effort < Real(1) ? worst : INFINITE) : max(worst, solve.effort);

@@ -13,10 +13,6 @@ layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(std430, binding = BINDING_CANDIDATES) buffer CandidateBlock { Real candidate_scores[]; };
 layout(std430, binding = BINDING_INDICES) buffer IndexBlock { uint candidate_indices[]; };
 
-// An ordered list; few entries ever enter it, so shifting it is cheaper than sorting with its neighbours.
-Real scores[SELECT_LARGEST];
-uint indices[SELECT_LARGEST];
-
 bool comes_first(Real score_a, uint index_a, Real score_b, uint index_b) {
   return score_a > score_b || (score_a == score_b && index_a < index_b);
 }
@@ -35,9 +31,11 @@ void main() {
 #else
   Real floor_score = uintBitsToFloat(push.floor_low);
 #endif
-  for (uint i = 0u; i < push.number; ++i) {
-    scores[i] = Real(-1);
-    indices[i] = 0xffffffffu;
+  // an ordered list where it is handed on; few entries ever enter it, so shifting it is cheaper than sorting with its neighbours
+  uint list = to + block * push.number, last = list + push.number - 1u;
+  for (uint i = list; i <= last; ++i) {
+    candidate_scores[i] = Real(-1);
+    candidate_indices[i] = 0xffffffffu;
   }
   Real last_score = floor_score;
   uint last_index = 0u;
@@ -53,21 +51,17 @@ void main() {
       index = candidate_indices[from + entry];
     }
     if (!comes_first(score, index, last_score, last_index)) continue;
-    uint place = push.number - 1u;
-    while (place > 0u && comes_first(score, index, scores[place - 1u], indices[place - 1u])) {
-      scores[place] = scores[place - 1u];
-      indices[place] = indices[place - 1u];
+    uint place = last;
+    while (place > list && comes_first(score, index, candidate_scores[place - 1u], candidate_indices[place - 1u])) {
+      candidate_scores[place] = candidate_scores[place - 1u];
+      candidate_indices[place] = candidate_indices[place - 1u];
       --place;
     }
-    scores[place] = score;
-    indices[place] = index;
-    if (scores[push.number - 1u] >= floor_score && indices[push.number - 1u] != 0xffffffffu) {
-      last_score = scores[push.number - 1u];
-      last_index = indices[push.number - 1u];
+    candidate_scores[place] = score;
+    candidate_indices[place] = index;
+    if (candidate_scores[last] >= floor_score && candidate_indices[last] != 0xffffffffu) {
+      last_score = candidate_scores[last];
+      last_index = candidate_indices[last];
     }
-  }
-  for (uint i = 0u; i < push.number; ++i) {
-    candidate_scores[to + block * push.number + i] = scores[i];
-    candidate_indices[to + block * push.number + i] = indices[i];
   }
 }

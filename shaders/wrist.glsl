@@ -3,7 +3,6 @@
 #ifndef WRIST_GLSL
 #define WRIST_GLSL
 
-#include "closure.glsl"
 #include "table.glsl"
 #include "trig.glsl"
 

@@ -99,8 +99,7 @@ BackendChoice choose_backend(const Workload& work, int threads, const std::optio
   const char* core_precision = precision == Precision::single ? "float" : "double";
   const std::string core = fmt::format("; the CPU core, {}, would take {} (`--on core`)", core_precision, about(on_core));
   if (device.kind != host::DeviceKind::cpu) return {"vulkan", core};
-  if (!device.name.starts_with("llvmpipe"))
-    return {"core", fmt::format("; {} is a CPU driver that was never timed (`--on vulkan`)", device.name)};
+  if (!is_llvmpipe(device)) return {"core", fmt::format("; {} is a CPU driver that was never timed (`--on vulkan`)", device.name)};
   const double on_driver = cpu_driver_seconds(work, thread_count(0), precision.value_or(Precision::single));
   if (on_driver < on_core) return {"vulkan", core};
   return {"core", fmt::format("; {}, a CPU driver, would take {} once its kernels are compiled (`--on vulkan`)", device.name,

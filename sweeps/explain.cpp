@@ -63,16 +63,16 @@ class Explainer {
 
  private:
   std::string explain() {
-    const Measured as_is = measure(scene_, fields_, OUTLINE_SPECIALIZED);
+    const Measured as_is = measure(scene_, fields_, OUTLINE_COPIED);
     say("what the sweep leaves out, and what this saves per grip (both ways ran on {} of {}; this sweep: {} us, {} B)\n",
         counted(sample_.size(), "grip"), scene_.vessels[0].name, us(microseconds(as_is)), readable_number(as_is.bytes));
     if (!on_core_) {
       if (scene_.vessels[0].mesh) {
         say("  nothing of the outline: the distance comes from the mesh's lattice\n");
+      } else if (!host::is_llvmpipe(host::choose_device(host::list_devices(), options_.on))) {
+        say("  nothing of the outline: it is read from a buffer\n");
       } else if (longest_outline() <= MAX_OUTLINE) {
-        row("reading the outline: its numbers are constants of the pipeline", measure(scene_, fields_, OUTLINE_BUFFER), as_is,
-            "from a buffer");
-        row("", measure(scene_, fields_, OUTLINE_HOISTED), as_is, "copied from a uniform block");
+        row("reading the outline: copied once a grip", measure(scene_, fields_, OUTLINE_BUFFER), as_is, "from a buffer");
       } else {
         say("  nothing of the outline: it has more than {} elements, so it is read from a buffer or evaluated on the core\n",
             MAX_OUTLINE);
@@ -162,14 +162,14 @@ class Explainer {
     const int computed = fields_.real_planes + fields_.uint_planes, all = every.real_planes + every.uint_planes;
     const int kept = fields_.real_kept + fields_.uint_kept;
     row(fmt::format("{} of {} result planes not computed, {} more not read back", all - computed, all, computed - kept),
-        measure(scene_, every, OUTLINE_SPECIALIZED), as_is, "every plane kept");
+        measure(scene_, every, OUTLINE_COPIED), as_is, "every plane kept");
   }
 
   void pose(const Measured& as_is) {
     if (scene_.pose != Pose::rigged) return;
     Scene other = scene_;
     other.pose = Pose::articulated;
-    row("projection of the fingers: the pose is rigged", measure(other, fields_, OUTLINE_SPECIALIZED), as_is, "articulated");
+    row("projection of the fingers: the pose is rigged", measure(other, fields_, OUTLINE_COPIED), as_is, "articulated");
   }
 
   void surface(const Measured& as_is) {
@@ -177,15 +177,15 @@ class Explainer {
     if (vessel.mesh || vessel.surface != Surface::solid || !(vessel.wall > 0)) return;
     Scene other = scene_;
     other.vessels[0].surface = Surface::shell;
-    row("the inner wall: the vessel is solid to the fingers", measure(other, fields_, OUTLINE_SPECIALIZED), as_is, "a shell");
+    row("the inner wall: the vessel is solid to the fingers", measure(other, fields_, OUTLINE_COPIED), as_is, "a shell");
   }
 
   void force(const Measured& as_is) {
     if (!scene_.tilts.empty()) return;
     Scene other = scene_;
     other.tilts = some_tilts();
-    row("the force kernel: the scene has no tilts", measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED),
-        as_is, "31 tilts");
+    row("the force kernel: the scene has no tilts", measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED), as_is,
+        "31 tilts");
   }
 
   void liquid(const Measured& as_is) {
@@ -200,9 +200,8 @@ class Explainer {
     Scene wet = dry;
     wet.liquid = LiquidData{};
     wet.liquid->fills = {0, 0.25, 0.5, 0.75, 1};
-    row("the liquid: its kernels, tables and four of five fills",
-        measure(wet, make_field_set(kept_fields(), wet), OUTLINE_SPECIALIZED),
-        scene_.tilts.empty() ? measure(dry, make_field_set(kept_fields(), dry), OUTLINE_SPECIALIZED) : as_is,
+    row("the liquid: its kernels, tables and four of five fills", measure(wet, make_field_set(kept_fields(), wet), OUTLINE_COPIED),
+        scene_.tilts.empty() ? measure(dry, make_field_set(kept_fields(), dry), OUTLINE_COPIED) : as_is,
         scene_.tilts.empty() ? "5 fills and 31 tilts" : "5 fills");
   }
 
@@ -222,17 +221,17 @@ class Explainer {
     Scene other = scene_;
     if (scene_.strength) {
       other.strength.reset();
-      as_is = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
+      as_is = measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED);
     }
     if (scene_.*one) {
       (other.*one).reset();
-      const Measured without = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
+      const Measured without = measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED);
       say("  not left out: {}, which costs {} us and {} B per grip{}\n", name, us(microseconds(as_is) - microseconds(without)),
           more_bytes(as_is, without), noise_note(as_is, without));
       return;
     }
     (other.*one).emplace();
-    row(lacked, measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED), as_is, with);
+    row(lacked, measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED), as_is, with);
   }
 
   // The same of the spheres between the joints: with strengths they press too, and the hand rests elsewhere, so that efforts are left out here.
@@ -240,11 +239,11 @@ class Explainer {
     Scene other = scene_;
     if (scene_.strength) {
       other.strength.reset();
-      as_is = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
+      as_is = measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED);
     }
     const int between = scene_.hand.between;
     other.hand.between = between > 0 ? 0 : 2;
-    const Measured changed = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
+    const Measured changed = measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED);
     if (between == 0) {
       row("spheres between the joints, and fingers in each other", changed, as_is, "2 on a bone");
     } else {
@@ -289,12 +288,12 @@ class Explainer {
     Scene other = scene_;
     if (!scene_.strength) {
       other.strength.emplace();
-      row("the efforts: the scene has no strengths", measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED),
-          as_is, "[strength]");
+      row("the efforts: the scene has no strengths", measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED), as_is,
+          "[strength]");
       return;
     }
     other.strength.reset();
-    const Measured without = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
+    const Measured without = measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED);
     say("  not left out: the efforts, which cost {} us and {} B per grip\n", us(microseconds(as_is) - microseconds(without)),
         more_bytes(as_is, without));
     searches();
@@ -341,7 +340,7 @@ class Explainer {
   // nearly all of their deviations.
   double plausible_grip() {
     const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_);
-    if (is_counting_) return microseconds(measure(scene_, fields, OUTLINE_SPECIALIZED, true, Precision::full));
+    if (is_counting_) return microseconds(measure(scene_, fields, OUTLINE_COPIED, true, Precision::full));
     const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene_);
     std::vector<GripInput> grips = plausible_grips(*core);
     if (grips.empty()) grips = sample_;
@@ -402,7 +401,7 @@ class Explainer {
     const auto& azimuths = scene_.grips.azimuth.values;
     for (std::size_t i = 0; i < turned.size(); ++i) turned[i].azimuth = azimuths[i % azimuths.size()];
     sample_.swap(turned);
-    const Measured every = measure(scene_, fields_, OUTLINE_SPECIALIZED);
+    const Measured every = measure(scene_, fields_, OUTLINE_COPIED);
     sample_.swap(turned);
     const std::size_t others = plan_.copies() - 1;
     row(fmt::format("{} of {} azimuths: the vessels are round, so one is enough", readable_number(others),

@@ -23,7 +23,7 @@ constexpr std::size_t CPU_COPY = std::size_t(128) << 20, GPU_COPY = std::size_t(
 
 host::Kernel bench_kernel(const host::Device& on, const char* name, Precision precision, bool fused = true) {
   const std::vector<host::Constant> constants{{CONST_GROUP_SIZE, std::uint32_t(GROUP_SIZE)}, {CONST_FUSED, std::int32_t(fused)}};
-  return {on, host::find_shader(name, precision, OUTLINE_NONE, bench_shaders()), constants, name};
+  return {on, host::find_shader(name, precision, BUILD_WIDE, OUTLINE_NONE, bench_shaders()), constants, name};
 }
 
 double best_seconds(const host::Device& on, const host::Commands& commands) {

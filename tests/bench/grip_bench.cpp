@@ -186,17 +186,15 @@ void add_grip_benchmarks(const Options& options) {
     })->Unit(benchmark::kMicrosecond);
   };
   add_core("core_double_1", beakers, Precision::full, 1);
-  add_vulkan("vulkan_float", beakers, Precision::single, OUTLINE_SPECIALIZED);
-  add_vulkan("vulkan_double", beakers, Precision::full, OUTLINE_SPECIALIZED);
+  add_vulkan("vulkan_float", beakers, Precision::single, OUTLINE_COPIED);
+  add_vulkan("vulkan_double", beakers, Precision::full, OUTLINE_COPIED);
   add_core("core_double_all", beakers, Precision::full, 0);
   add_core("core_float_1", beakers, Precision::single, 1);
-  add_vulkan("vulkan_float_hoisted", beakers, Precision::single, OUTLINE_HOISTED);
   add_vulkan("vulkan_float_buffer", beakers, Precision::single, OUTLINE_BUFFER);
-  add_vulkan("ribbed_float", ribbed, Precision::single, OUTLINE_SPECIALIZED);
-  add_vulkan("ribbed_float_hoisted", ribbed, Precision::single, OUTLINE_HOISTED);
+  add_vulkan("ribbed_float", ribbed, Precision::single, OUTLINE_COPIED);
   add_vulkan("ribbed_float_buffer", ribbed, Precision::single, OUTLINE_BUFFER);
   add_core("whole_core_all", whole, Precision::full, 0);
-  add_vulkan("whole_vulkan_float", whole, Precision::single, OUTLINE_SPECIALIZED);
+  add_vulkan("whole_vulkan_float", whole, Precision::single, OUTLINE_COPIED);
   add_step("step_dry", false, false);
   add_step("step_liquid", true, false);
   add_step("step_efforts", true, true);
@@ -207,9 +205,7 @@ void print_grip_ratios(const Figures& figures) {
   print_ratio(figures, "vulkan_float", "core_double_all", 4);
   print_ratio(figures, "vulkan_double", "core_double_1", 5);
   print_ratio(figures, "vulkan_float", "vulkan_float_buffer", 4);
-  print_ratio(figures, "vulkan_float_hoisted", "vulkan_float_buffer", 0);
   print_ratio(figures, "ribbed_float", "ribbed_float_buffer", 4);
-  print_ratio(figures, "ribbed_float_hoisted", "ribbed_float_buffer", 0);
   print_ratio(figures, "whole_vulkan_float", "whole_core_all", 0);
   for (const auto& [step, wanted] : {std::pair{"step_dry", 20}, {"step_liquid", 40}, {"step_efforts", 60}})
     if (const auto found = figures.figures.find(step); found != figures.figures.end())

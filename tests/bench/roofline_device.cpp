@@ -48,11 +48,11 @@ class DeviceRun {
     const auto core = make_core_evaluator(workload.scene);
     const host::SceneArrays arrays = host::make_scene_arrays(workload.scene, *core, {});
     program_ = std::make_unique<host::GripProgram>(workload.scene, arrays, *core, workload.fields, options.device, on_device_);
-    const std::size_t reals = workload.fields.real_planes + host::contact_planes(workload.fields);
+    const auto reals = static_cast<std::size_t>(program_->real_planes);
     chunk_.count = chunk_.stride = SAMPLE * repeats(program_->on.info(), reals * real_);
     grips_ = host::Buffer(program_->on, GRIP_AXES * chunk_.stride * real_);
     reals_ = host::Buffer(program_->on, reals * chunk_.stride * real_);
-    uints_ = host::Buffer(program_->on, workload.fields.uint_planes * chunk_.stride * sizeof(std::uint32_t));
+    uints_ = host::Buffer(program_->on, program_->fields.uint_planes * chunk_.stride * sizeof(std::uint32_t));
     lanes_ = host::Buffer(program_->on, 2 * sizeof(std::uint32_t));
   }
 
@@ -140,8 +140,8 @@ struct StepKernels {
   int workload;
   std::vector<const char*> kernels;
 };
-const StepKernels STEP_KERNELS[STEPS] = {{GRIPS, {"grip", "score"}},
-                                         {BODIES, {"grip", "score"}},
+const StepKernels STEP_KERNELS[STEPS] = {{GRIPS, {"closure", "rest", "contact", "overlap", "score"}},
+                                         {BODIES, {"closure", "rest", "contact", "overlap", "score"}},
                                          {RESERVES, {"force"}},
                                          {RESERVES, {"effort"}},
                                          {RESERVES, {"reserve"}}};

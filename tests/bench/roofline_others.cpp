@@ -62,7 +62,8 @@ class LiquidRun {
   Lanes lanes() {
     const host::Device& on = program_->on;
     const std::vector<host::Constant> constants{{CONST_GROUP_SIZE, std::uint32_t(GROUP_SIZE)}};
-    const host::Kernel counting(on, host::find_shader("liquid", precision_, OUTLINE_NONE, lane_shaders()), constants, "liquid");
+    const host::Kernel counting(on, host::find_shader("liquid", precision_, BUILD_WIDE, OUTLINE_NONE, lane_shaders()), constants,
+                                "liquid");
     host::Buffer lanes(on, 2 * sizeof(std::uint32_t));
     lanes.write(std::vector<std::uint32_t>{0, 0});
     const std::uint32_t states = program_->fill_count * program_->tilt_count;

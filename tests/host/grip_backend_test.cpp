@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The backend around the kernels: ways of moving data, pipelines that are made side by side, what goes to the core instead. What
 // the kernels compute is compared in tests/shaders/parity_test.cpp.
-// sanitizers: address thread
+// sanitizers: thread
 #include "host/grip_backend.h"
 
 #include <gtest/gtest.h>
@@ -204,7 +204,8 @@ TEST(GripBackend, SaysWhatItMadeAndWhatAGripTakes) {
   const FieldSet scored = make_field_set({FIELD_SCORE}, dry);
   const auto without = backend_of(dry, scored);
   EXPECT_FALSE(without->pipelines(0).force || without->pipelines(0).liquid);
-  EXPECT_EQ(without->bytes_per_grip(), 4u * (GRIP_AXES + scored.real_planes + scored.uint_planes));
+  constexpr int HANDED_ON = 3 * JOINTS + PLACED_STRIDE;  // the posed points, and how the hand is placed
+  EXPECT_EQ(without->bytes_per_grip(), 4u * (GRIP_AXES + scored.real_planes + HANDED_ON + scored.uint_planes));
   EXPECT_LT(without->bytes_per_grip(), with->bytes_per_grip());
 }
 

@@ -121,14 +121,14 @@ TEST(HostSpecialize, AllBitsOfADoubleAreKept) {
   EXPECT_EQ(found, 1u);
 }
 
-// Lattices, poses and planes that a scene does not have are more than a third of the kernel of grips.
+// Lattices, poses and planes that a scene does not have are more than a third of the kernel of contacts.
 TEST(HostSpecialize, WhatIsSwitchedOffIsLeftOut) {
-  const auto grip = find_shader("grip", Precision::single, OUTLINE_SPECIALIZED);
-  const Words outline = specialized(grip, {{CONST_SDF_KIND, SDF_OUTLINE}, {CONST_OUTLINE_COUNT, 3}});
-  EXPECT_LT(outline.size(), grip.size() * 2 / 3);
+  const auto contact = find_shader("contact", Precision::single, BUILD_WIDE, OUTLINE_COPIED);
+  const Words outline = specialized(contact, {{CONST_SDF_KIND, SDF_OUTLINE}, {CONST_OUTLINE_COUNT, 3}});
+  EXPECT_LT(outline.size(), contact.size() * 2 / 3);
   SpecializationBits all{{CONST_SDF_KIND, SDF_LATTICE}, {CONST_TABLE, 1}, {CONST_BETWEEN, 2}, {CONST_ARM, 24}, {CONST_CONTACTS, 0}};
   for (std::uint32_t f = 0; f < FIELDS; ++f) all[CONST_PLANE + f] = f;
-  EXPECT_GT(specialized(grip, all).size(), outline.size());
+  EXPECT_GT(specialized(contact, all).size(), outline.size());
 }
 
 // A kernel with these blocks that computes nothing. Its ids: 2 a specialization constant (number 0), 3 a type of integers, 4 a constant of it.

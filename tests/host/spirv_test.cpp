@@ -32,9 +32,9 @@ TEST(HostSpirv, InterfaceIsReadFromTheShader) {
   EXPECT_EQ(other.group_size_id[0], ShaderInterface::NO_ID);
   EXPECT_FALSE(other.float64);
 
-  const ShaderInterface grip = read_interface(find_shader("grip", Precision::single, OUTLINE_SPECIALIZED), "grip");
-  const auto lattice = std::ranges::find(grip.bindings, std::uint32_t{BINDING_LATTICE}, &ShaderBinding::binding);
-  ASSERT_NE(lattice, grip.bindings.end());
+  const ShaderInterface contact = read_interface(find_shader("contact", Precision::single, BUILD_WIDE, OUTLINE_COPIED), "contact");
+  const auto lattice = std::ranges::find(contact.bindings, std::uint32_t{BINDING_LATTICE}, &ShaderBinding::binding);
+  ASSERT_NE(lattice, contact.bindings.end());
   EXPECT_EQ(lattice->kind, BindingKind::texels);
 }
 

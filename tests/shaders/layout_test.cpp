@@ -69,12 +69,11 @@ TEST(Layout, RealFieldsComeBeforeUintFields) {
 }
 
 TEST(Layout, SpecializationConstantsDoNotOverlap) {
-  // CONST_PLANE is the first of FIELDS ids, CONST_OUTLINE the first of OUTLINE_STRIDE * MAX_OUTLINE
+  // CONST_PLANE is the first of FIELDS ids
   std::map<long, std::string> owner;
   for (const auto& [name, first] : defined("CONST")) {
     long count = 1;
     if (name == "CONST_PLANE") count = FIELDS;
-    if (name == "CONST_OUTLINE") count = OUTLINE_STRIDE * MAX_OUTLINE;
     for (long id = first; id < first + count; ++id) {
       EXPECT_TRUE(owner.emplace(id, name).second) << name << " takes id " << id << " of " << owner[id];
     }
@@ -154,7 +153,8 @@ Offsets parameter_offsets() {
   OFFSET(thumb_strength), OFFSET(index_strength), OFFSET(middle_strength), OFFSET(ring_strength), OFFSET(little_strength);
   OFFSET(palm_strength), OFFSET(tip_radii), OFFSET(pour_sense), OFFSET(table_top);
   OFFSET(shoulder_x), OFFSET(shoulder_y), OFFSET(shoulder_z), OFFSET(upper_arm), OFFSET(forearm), OFFSET(wrist_radius);
-  OFFSET(elbow_radius), OFFSET(flexion), OFFSET(extension), OFFSET(ulnar), OFFSET(radial), OFFSET(pronation), OFFSET(supination);
+  OFFSET(lid_radius), OFFSET(lid_height), OFFSET(lid), OFFSET(elbow_radius), OFFSET(flexion), OFFSET(extension), OFFSET(ulnar),
+      OFFSET(radial), OFFSET(pronation), OFFSET(supination);
   OFFSET(weight_fingers), OFFSET(weight_contacts), OFFSET(weight_depth), OFFSET(weight_posture), OFFSET(weight_force);
   OFFSET(weight_hold), OFFSET(outline_count), OFFSET(cavity_count), OFFSET(lattice_nx), OFFSET(lattice_ny), OFFSET(lattice_nz);
   OFFSET(fills), OFFSET(tilts), OFFSET(quadrature_count);

@@ -202,7 +202,7 @@ TEST_F(ParityLeaf, ProxyOnTheAxis) {
 
 TEST_F(ParityLeaf, Lattice) {
   const Scene scene = vessels_scene();
-  const Way way{OUTLINE_SPECIALIZED, 40};
+  const Way way{OUTLINE_COPIED, 40};
   const auto core = make_core_evaluator(scene, {.lattice_samples = way.lattice_samples});
   const core_f64::Lattice lattice = core_f64::load_lattice(*core->lattice(VASE));
   const std::array<int, 3> counts{lattice.nx, lattice.ny, lattice.nz};

@@ -66,7 +66,7 @@ std::vector<Output> together(const Lists&... lists) {
 
 // How the vessel's distance is found.
 struct Way {
-  OutlineSource source = OUTLINE_SPECIALIZED;
+  OutlineSource source = OUTLINE_COPIED;
   int lattice_samples = 0;
   int lattice_bits = 32;
 };

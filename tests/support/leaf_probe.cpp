@@ -50,18 +50,8 @@ LeafProbe::LeafProbe(const host::Device& device, const Scene& scene, std::size_t
   constants_ = {{CONST_SDF_KIND, std::int32_t(vessel.lattice ? SDF_LATTICE : SDF_OUTLINE)},
                 {CONST_LATTICE_BITS, std::int32_t(lattice_bits)},
                 {CONST_OUTLINE_COUNT, std::int32_t(vessel.outline_count)},
-                {CONST_LID, std::int32_t(vessel.lid)},
                 {CONST_TABLE, std::int32_t(scene.table ? 1 : 0)},
                 {CONST_ARM, std::int32_t(arm_azimuths(scene, scene.vessels[v]))}};
-  if (source != OUTLINE_SPECIALIZED) return;
-  for (std::size_t i = 0; i < vessel.outline.size(); ++i) {
-    const auto id = static_cast<std::uint32_t>(CONST_OUTLINE + i);
-    if (precision == Precision::full) {
-      constants_.push_back({id, vessel.outline[i]});
-    } else {
-      constants_.push_back({id, static_cast<float>(vessel.outline[i])});
-    }
-  }
 }
 
 std::vector<double> LeafProbe::run(std::string_view shader, int probe, const std::vector<double>& given, std::size_t rows,

@@ -18,7 +18,7 @@ namespace {
 TEST(CodeId, ChangesWithEachSourceThatComputesAndWithTheSettings) {
   const TemporaryFolder folder;
   const std::string source = WHOLEHAND_SOURCE_DIR, script = source + "/cmake/code_id.cmake";
-  for (const char* file : {"core/arm.h", "shaders/score.glsl", "shaders/grip.comp", "sweeps/plan.cpp", "app/main.cpp"}) {
+  for (const char* file : {"core/arm.h", "shaders/score.glsl", "shaders/contact.comp", "sweeps/plan.cpp", "app/main.cpp"}) {
     std::filesystem::create_directories(std::filesystem::path(folder / file).parent_path());
     std::filesystem::copy_file(source + "/" + file, folder / file);
   }
@@ -34,7 +34,7 @@ TEST(CodeId, ChangesWithEachSourceThatComputesAndWithTheSettings) {
   EXPECT_NE(before.find("return \"sha1-"), std::string::npos) << before;
   EXPECT_EQ(written(), before);
   EXPECT_NE(written("g++ -O2"), before);
-  for (const char* file : {"core/arm.h", "shaders/score.glsl", "shaders/grip.comp", "sweeps/plan.cpp", "app/main.cpp"}) {
+  for (const char* file : {"core/arm.h", "shaders/score.glsl", "shaders/contact.comp", "sweeps/plan.cpp", "app/main.cpp"}) {
     const std::string text = file_text(folder / file);
     std::ofstream(folder / file) << text << " ";
     EXPECT_EQ(written() == before, std::string(file).starts_with("app/")) << file;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What the kernels of a grip hand on to each other, in planes that nobody may have asked for.
+#ifndef PLACED_GLSL
+#define PLACED_GLSL
+
+#include "grips.glsl"
+#include "hand_table.glsl"
+#include "planes.glsl"
+#include "status.h"
+
+layout(constant_id = CONST_PLACED) const int PLACED = -1;
+
+int first_joint_of(int finger) { return finger == 0 ? 0 : 5 * finger - 1; }
+int points_of(int finger) { return finger == 0 ? 4 : 5; }
+
+Vec3 posed_point(int joint, uint grip) { return kept_vector(PLANE_POSED + 3 * joint, grip); }
+
+Real grip_scale(uint grip) { return HAND_SCALE * grip_axis(AXIS_HAND_SCALE, grip); }
+
+#endif
