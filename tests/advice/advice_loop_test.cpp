@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Advice in a thread of its own: it comes, it follows the ticks, it ends when asked or where its device fails, and nobody waits
 // for it.
-// sanitizers: address thread
+// sanitizers: thread
 #include "advice/advice_loop.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The built program's views: `live --view`, `view` of recordings and results, `grip --view`; how they end, what they refuse, and
 // that nobody who watches, or does worse, costs the session a tick.
-// sanitizers: address thread
+// sanitizers: thread
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

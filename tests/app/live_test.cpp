@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The report of a live session, and the built program's `live`: options, exit codes, recording, replay, signals, disks that fill up.
-// sanitizers: address thread
+// sanitizers: thread
 #include "app/live.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sanitizers: address thread
+// sanitizers: thread
 #include "core/core_backend.h"
 
 #include <gtest/gtest.h>

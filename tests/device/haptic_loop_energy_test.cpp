@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the loop does to the energy of a device that is pressed against a wall.
-// sanitizers: address thread
+// sanitizers: thread
 #include "core/vectors.h"
 #include "device/haptic_loop.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The loop around a session where time is lost: stalls, and calls that take long or never return.
-// sanitizers: address thread
+// sanitizers: thread
 #include "device/haptic_loop.h"
 
 #include <gtest/gtest.h>

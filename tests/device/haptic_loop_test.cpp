@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The loop around a session: every fault injected into it, the force that is written then, and its clock.
-// sanitizers: address thread
+// sanitizers: thread
 #include "device/haptic_loop.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A hand over the network: the obeyed sender, the fate of all other datagrams, and that no force is left on any way out. The ticks are
 // counted by the tests; only the datagrams are real.
-// sanitizers: address thread
+// sanitizers: thread
 #include "device/osc_gripper.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The simulated user in simulated time: whole sessions, everything up to the wire.
-// sanitizers: address
+// sanitizers: none
 #include "device/sim_gripper.h"
 #include "core/held.h"
 #include "core/joints.h"

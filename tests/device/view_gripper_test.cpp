@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page as a gripper: where controls put the hand, that the steps of a mouse pass the guard, and a whole session by posted
 // controls.
-// sanitizers: address thread
+// sanitizers: thread
 #include "device/view_gripper.h"
 #include "core/vectors.h"
 

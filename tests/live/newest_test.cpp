@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sanitizers: address thread
+// sanitizers: thread
 #include "live/newest.h"
 
 #include <gtest/gtest.h>

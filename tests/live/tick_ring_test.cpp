@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sanitizers: address thread
+// sanitizers: thread
 #include "live/tick_ring.h"
 
 #include <gtest/gtest.h>

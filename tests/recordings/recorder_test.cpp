@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The thread that writes down what goes through the ring.
-// sanitizers: address thread
+// sanitizers: thread
 #include "recordings/recorder.h"
 
 #include "recordings/recording.h"

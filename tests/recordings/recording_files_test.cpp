@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The file of a recording: it outlives the process and a full disk, and is never taken for whole where it is not.
-// sanitizers: address thread
+// sanitizers: thread
 #include "recordings/recording.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is no recording, or a damaged one: refused in a line, or read as far as it goes.
-// sanitizers: address thread
+// sanitizers: thread
 #include "recordings/recording.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a recording holds: every bit of every tick, as this program and others read it.
-// sanitizers: address thread
+// sanitizers: thread
 #include "recordings/recording.h"
 
 #include <fmt/format.h>

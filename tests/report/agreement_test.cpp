@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The file's numbers beside the core's: what is right holds in either precision, and every wrong number is found.
-// sanitizers: address
+// sanitizers: none
 #include "report/agreement.h"
 
 #include <gtest/gtest.h>

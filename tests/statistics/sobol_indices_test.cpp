@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Indices of models whose own are known.
+// sanitizers: none
 #include "statistics/sobol_indices.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The experiment of contacts on small populations.
-// sanitizers: address thread
+// sanitizers: thread
 #include "studies/contacts.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The statistics of sessions on grasps whose numbers are computed by hand.
-// sanitizers: address thread
+// sanitizers: thread
 #include "studies/session_statistics.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lists chosen in passes with a small memory, against the definition with all grips at hand.
-// sanitizers: address thread
+// sanitizers: thread
 #include "sweeps/list_chooser.h"
 
 #include <gtest/gtest.h>

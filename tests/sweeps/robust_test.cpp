@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Robust scores: the percentile in closed form, the deviations as samples, and the scores of whole sweeps against a brute-force
 // evaluation, in the file, in the list, in `rank` and after a break.
-// sanitizers: address
+// sanitizers: none
 #include "sweeps/robust.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sweeps whose best grips have to differ, against a choice among all grips at hand.
-// sanitizers: address thread
+// sanitizers: thread
 #include <gtest/gtest.h>
 
 #include <algorithm>

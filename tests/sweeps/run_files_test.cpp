@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The files of a sweep: who may write where, and what is refused before any work.
-// sanitizers: address thread
+// sanitizers: thread
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>

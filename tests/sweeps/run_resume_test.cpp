@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sweeps that are interrupted or killed and gone on with, and what --resume refuses.
-// sanitizers: address thread
+// sanitizers: thread
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

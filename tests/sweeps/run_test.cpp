@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A sweep as a whole: what it writes and says, on any backend.
-// sanitizers: address thread
+// sanitizers: thread
 #include "sweeps/run.h"
 
 #include <gtest/gtest.h>

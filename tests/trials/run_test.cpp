@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sanitizers: address thread
+// sanitizers: thread
 #include "trials/run.h"
 
 #include <gtest/gtest.h>

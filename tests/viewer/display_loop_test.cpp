@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a session shows at display rate: the newest tick, each once, the last one always.
-// sanitizers: address thread
+// sanitizers: thread
 #include "viewer/display_loop.h"
 
 #include <gtest/gtest.h>

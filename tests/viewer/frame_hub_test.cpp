@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Frames from one who makes them to many who watch.
-// sanitizers: address thread
+// sanitizers: thread
 #include "viewer/frame_hub.h"
 
 #include <gtest/gtest.h>

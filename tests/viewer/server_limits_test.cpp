@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The viewer's server against a browser of our own: what becomes of those who send too much, too slowly, or stop reading.
-// sanitizers: address thread
+// sanitizers: thread
 #include "viewer/server.h"
 
 #include <gtest/gtest.h>

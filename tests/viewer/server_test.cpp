@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The viewer's server against a browser of our own: what is there and which requests get in. With viewer/local_server and
 // viewer/http_connection, which it is made of.
-// sanitizers: address thread
+// sanitizers: thread
 #include "viewer/server.h"
 
 #include <gtest/gtest.h>
