@@ -47,6 +47,37 @@ std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed, Memo
   return *type;
 }
 
+// A device need not grant more than 4,096 allocations (maxMemoryAllocationCount), and each vessel of a scene has seven buffers and more. Buffers of
+// up to SMALL bytes share blocks. At most a sixteenth of a block stays unused at its end.
+constexpr vk::DeviceSize BLOCK = 1 << 20, SMALL = BLOCK / 16;
+
+std::shared_ptr<MemoryBlock> make_block(DeviceState& device, vk::DeviceSize size, std::uint32_t type) {
+  const auto block = std::make_shared<MemoryBlock>(device);
+  block->memory = vk::raii::DeviceMemory(*device.device, {size, type});
+  block->size = size;
+  if (device.memory.memoryTypes[type].propertyFlags & Flag::eHostVisible)
+    block->mapped = static_cast<std::byte*>(block->memory.mapMemory(0, VK_WHOLE_SIZE));
+  return block;
+}
+
+struct Place {
+  std::shared_ptr<MemoryBlock> block;
+  vk::DeviceSize offset = 0;
+};
+
+Place place_for(DeviceState& device, const vk::MemoryRequirements& needs, std::uint32_t type) {
+  if (needs.size > SMALL) return {make_block(device, needs.size, type)};
+  std::shared_ptr<MemoryBlock>& block = device.blocks[type];
+  if (block.use_count() == 1) block->used = 0;  // no buffer is left in it
+  vk::DeviceSize offset = block ? (block->used + needs.alignment - 1) / needs.alignment * needs.alignment : 0;
+  if (!block || offset + needs.size > block->size) {
+    block = make_block(device, BLOCK, type);
+    offset = 0;
+  }
+  block->used = offset + needs.size;
+  return {block, offset};
+}
+
 }  // namespace
 
 Buffer::Buffer(const Device& device, std::size_t bytes, Memory memory) : Buffer(device.state(), bytes, memory) {}
@@ -70,10 +101,11 @@ Buffer::Buffer(DeviceState& on, std::size_t bytes, Memory memory) : state_(new B
     state_->buffer = vk::raii::Buffer(*on.device, info);
     const vk::MemoryRequirements needs = state_->buffer.getMemoryRequirements();
     const std::uint32_t type = choose_type(on, needs.memoryTypeBits, memory);
-    state_->memory = vk::raii::DeviceMemory(*on.device, {needs.size, type});
-    state_->buffer.bindMemory(*state_->memory, 0);
+    const Place place = place_for(on, needs, type);
+    state_->memory = place.block;
+    state_->buffer.bindMemory(*place.block->memory, place.offset);
     if (memory != Memory::device || on.info.unified_memory) {
-      state_->mapped = static_cast<std::byte*>(state_->memory.mapMemory(0, VK_WHOLE_SIZE));
+      state_->mapped = place.block->mapped + place.offset;
       state_->cached = bool(on.memory.memoryTypes[type].propertyFlags & Flag::eHostCached);
     }
   });

@@ -49,6 +49,18 @@ struct QueueRef {
   vk::raii::Queue queue = nullptr;
 };
 
+struct DeviceState;
+
+// An allocation, which small buffers share. The last of them frees it.
+struct MemoryBlock {
+  DeviceState& device;
+  vk::raii::DeviceMemory memory = nullptr;
+  std::byte* mapped = nullptr;  // where the host sees it
+  vk::DeviceSize size = 0, used = 0;
+
+  ~MemoryBlock();
+};
+
 // What a Device holds.
 struct DeviceState {
   std::shared_ptr<Instance> instance;
@@ -62,8 +74,9 @@ struct DeviceState {
   QueueRef compute, upload, download;   // upload and download are `compute` where there is no queue for copies alone
   std::vector<std::uint32_t> families;  // those in use
   vk::PhysicalDeviceMemoryProperties memory;
-  double timestamp_period = 0;       // s; 0: no timestamps
-  std::uint64_t timestamp_mask = 0;  // of the bits that count
+  std::array<std::shared_ptr<MemoryBlock>, VK_MAX_MEMORY_TYPES> blocks;  // that the next small buffer of each type goes into
+  double timestamp_period = 0;                                           // s; 0: no timestamps
+  std::uint64_t timestamp_mask = 0;                                      // of the bits that count
   std::optional<vk::raii::PipelineCache> cache;
   std::string cache_file;      // empty: not kept
   std::size_t cache_size = 0;  // as read from it
@@ -77,17 +90,19 @@ void leave_behind(const DeviceState& device, Handles&... handles) {
   if (device.hung) (static_cast<void>(handles.release()), ...);
 }
 
+inline MemoryBlock::~MemoryBlock() { leave_behind(device, memory); }
+
 // What a Buffer holds.
 struct BufferState {
   DeviceState& device;
   std::size_t size;
-  vk::raii::DeviceMemory memory = nullptr;
+  std::shared_ptr<MemoryBlock> memory{};
   vk::raii::Buffer buffer = nullptr;    // after its memory: destroyed first
   vk::raii::BufferView view = nullptr;  // of uints; made by texels()
   std::byte* mapped = nullptr;
   bool cached = false;  // reading the mapping is fast
 
-  ~BufferState() { leave_behind(device, view, buffer, memory); }
+  ~BufferState() { leave_behind(device, view, buffer); }
   vk::BufferView texels();
 };
 

@@ -33,6 +33,17 @@ TEST_P(HostBuffer, WritesPartOfIt) {
   EXPECT_EQ(buffer.read_as<int>(3), (std::vector<int>{7, 8, 3}));
 }
 
+// Those of a device share its memory.
+TEST_P(HostBuffer, SmallOnesKeepTheirContentsWhileOthersComeAndGo) {
+  const auto values_of = [](std::size_t i) { return std::vector<std::size_t>(1 + i * 37 % 900, i); };
+  std::vector<Buffer> buffers(1000);
+  for (std::size_t i = 0; i < buffers.size(); ++i) buffers[i] = Buffer::of(device, values_of(i));
+  for (std::size_t i = 0; i < buffers.size(); i += 3) buffers[i] = Buffer();
+  for (std::size_t i = 0; i < buffers.size(); i += 3) buffers[i] = Buffer::of(device, values_of(i));
+  for (std::size_t i = 0; i < buffers.size(); ++i)
+    ASSERT_EQ(buffers[i].read_as<std::size_t>(values_of(i).size()), values_of(i)) << i;
+}
+
 TEST_P(HostBuffer, MayBeEmpty) {
   const Buffer buffer = Buffer::of(device, std::vector<float>());
   EXPECT_EQ(buffer.size(), 0u);

@@ -41,29 +41,68 @@ std::vector<GatheredPlanes> planes_of(const Scene& scene, host::GripBackend& bac
   return planes;
 }
 
+// Devices opened meanwhile are those of the layer, under the validation layer.
+class Layered {
+ public:
+  Layered() {
+    write_file(folder_ / "discrete_gpu.json",
+               R"({"file_format_version": "1.2.0", "layer": {"name": "VK_LAYER_WHOLEHAND_discrete_gpu",
+      "type": "GLOBAL", "library_path": ")" STAND_IN_DISCRETE_GPU R"(", "api_version": "1.3.0", "implementation_version": "1",
+      "description": "lavapipe as a discrete GPU"}})");
+  }
+
+ private:
+  const TemporaryFolder folder_;
+  const ScopedVariable path_{"VK_LAYER_PATH",
+                             ("/usr/share/vulkan/explicit_layer.d:" + folder_.path()).c_str()};  // from the program down
+  const ScopedVariable layers_{"VK_INSTANCE_LAYERS",
+                               "VK_LAYER_KHRONOS_validation:VK_LAYER_WHOLEHAND_discrete_gpu"};  // from the program down
+};
+
+bool have_same_bits(const GatheredPlanes& a, const GatheredPlanes& b) {
+  const auto has_same_bits = [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); };
+  return std::ranges::equal(a.reals, b.reals, has_same_bits) && a.uints == b.uints;
+}
+
 TEST(DiscreteGpu, GivesTheBitsOfTheSameDeviceWithOneQueueForAll) {
   const Scene scene = carried();
   const std::vector<GatheredPlanes> direct = planes_of(scene, *backend_of(scene));
 
-  const TemporaryFolder folder;
-  write_file(folder / "discrete_gpu.json", R"({"file_format_version": "1.2.0", "layer": {"name": "VK_LAYER_WHOLEHAND_discrete_gpu",
-    "type": "GLOBAL", "library_path": ")" STAND_IN_DISCRETE_GPU R"(", "api_version": "1.3.0", "implementation_version": "1",
-    "description": "lavapipe as a discrete GPU"}})");
-  const ScopedVariable path("VK_LAYER_PATH",
-                            ("/usr/share/vulkan/explicit_layer.d:" + folder.path()).c_str());  // from the program down
-  const ScopedVariable layers("VK_INSTANCE_LAYERS",
-                              "VK_LAYER_KHRONOS_validation:VK_LAYER_WHOLEHAND_discrete_gpu");  // from the program down
+  const Layered layered;
   const auto backend = backend_of(scene);
   ASSERT_EQ(backend->device().kind, host::DeviceKind::discrete);
   ASSERT_FALSE(backend->device().unified_memory);
   const std::vector<GatheredPlanes> staged = planes_of(scene, *backend);
-  for (std::size_t v = 0; v < staged.size(); ++v) {
-    const auto has_same_bits = [](double a, double b) {
-      return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-    };
-    EXPECT_TRUE(std::ranges::equal(staged[v].reals, direct[v].reals, has_same_bits));
-    EXPECT_EQ(staged[v].uints, direct[v].uints);
-  }
+  for (std::size_t v = 0; v < staged.size(); ++v) EXPECT_TRUE(have_same_bits(staged[v], direct[v])) << v;
+}
+
+// The layer grants 48 allocations.
+TEST(DiscreteGpu, TakesFewAllocationsForHundredsOfVessels) {
+  const auto wet = [](const std::vector<VesselData>& vessels) {
+    Scene scene = scene_of(vessels, Pose::rigged, left_hand());
+    scene.liquid = LiquidData{};
+    scene.liquid->fills = {0, 0.6};
+    scene.tilts = {0, radians(40)};
+    return scene;
+  };
+  std::vector<VesselData> vessels(299, beaker1());
+  vessels.push_back(beaker3());
+  const Scene many = wet(vessels), one = wet({beaker3()});
+  const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS, FIELD_MIDPOINT}, many);
+  const auto grips = sample_grips(one.vessels[0], 300, 7);
+
+  const Layered layered;
+  const auto results_of_last = [&](const Scene& scene) {
+    host::GripBackend backend(scene, make_core_evaluator(scene), fields, "vulkan");
+    const std::size_t last = scene.vessels.size() - 1;
+    return std::pair{gather(backend, last, grips), backend.liquid(last)};
+  };
+  const auto [among_many, liquid_among_many] = results_of_last(many);
+  const auto [alone, liquid_alone] = results_of_last(one);
+  EXPECT_TRUE(have_same_bits(among_many, alone));
+  ASSERT_EQ(liquid_among_many.size(), liquid_alone.size());
+  for (std::size_t state = 0; state < liquid_alone.size(); ++state)
+    EXPECT_EQ(liquid_among_many[state].mass, liquid_alone[state].mass) << state;
 }
 
 }  // namespace

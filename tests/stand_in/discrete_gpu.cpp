@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A Vulkan layer that shows lavapipe as a discrete GPU: queue families of their own for graphics, for compute and for copies, in place of one for
-// all. It lies under the validation layer, which then sees what a command buffer of each family may hold.
+// all, and few allocations of memory. It lies under the validation layer, which then sees what a command buffer of each family may hold.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -26,6 +26,9 @@ struct Family {
 constexpr std::array<Family, 3> FAMILIES{{{VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_TRANSFER_BIT, 1},
                                           {VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, 1},
                                           {VK_QUEUE_TRANSFER_BIT, 2}}};
+
+// Allocations that a device grants, in place of the 4,096 that every driver must.
+constexpr std::uint32_t ALLOCATIONS = 48;
 
 // A queue as the program has it. The loader writes its table into the first word.
 struct Queue {
@@ -85,14 +88,19 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
   return result;
 }
 
+void change(VkPhysicalDeviceProperties& properties) {
+  properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+  properties.limits.maxMemoryAllocationCount = ALLOCATIONS;  // the validation layer counts
+}
+
 VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical, VkPhysicalDeviceProperties* out) {
   below.properties(physical, out);
-  out->deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+  change(*out);
 }
 
 VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* out) {
   below.properties2(physical, out);
-  out->properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+  change(out->properties);
 }
 
 VKAPI_ATTR void VKAPI_CALL families(VkPhysicalDevice physical, std::uint32_t* count, VkQueueFamilyProperties* out) {
