@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/device_info.h"
+#include "host/run_once.h"
 #include "program/remedy.h"
 #include "system/output.h"
 #include "system/readable.h"
@@ -16,6 +16,23 @@ namespace {
 
 // As gripper_lines says it of a gripper.
 void print_no_vulkan(const std::string& why) { print("vulkan  cannot be used: " + why + "\n"); }
+
+std::string rounding_line(const host::DeviceInfo& info) {
+  try {
+    const host::Device device("vulkan:" + std::to_string(info.index), {.wait_seconds = 10});
+    const std::vector<Precision> contracted = host::contracted_precisions(device);
+    if (contracted.empty()) return "  rounds products before it adds them, as the kernels ask (NoContraction)\n";
+    return fmt::format(
+        "  does NOT round products before it adds them, as the kernels ask (NoContraction), in {}; run wholehand check --on "
+        "vulkan:{}\n",
+        contracted.size() > 1                     ? "float and double"
+        : contracted.front() == Precision::single ? "float"
+                                                  : "double",
+        info.index);
+  } catch (const Error& error) {
+    return fmt::format("  cannot be opened: {}\n", error.what());
+  }
+}
 
 void print_vulkan_devices() {
   const auto devices = host::list_devices();
@@ -39,6 +56,7 @@ void print_vulkan_devices() {
     print(fmt::format("  memory {} MiB{}, one allocation {} MiB, one storage buffer {} MiB, shared memory {} KiB\n",
                       mebibytes(device.memory), device.unified_memory ? " (the host's own)" : "", mebibytes(device.max_allocation),
                       mebibytes(device.max_storage_range), readable_number(device.shared_memory / 1024)));
+    print(rounding_line(device));
   }
 }
 

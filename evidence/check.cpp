@@ -9,6 +9,7 @@
 #include "core/domain.h"
 #include "evidence/check_sample.h"
 #include "host/grip_backend.h"
+#include "host/run_once.h"
 #include "system/clock.h"
 #include "system/progress.h"
 
@@ -172,6 +173,8 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
       report.vessels.push_back({scene.vessels[v].name, sample.own, sample.grips.size() - sample.own});
     }
     checking.tell(report, samples);
+    for (const Precision precision : host::contracted_precisions(host::Device(options.on, options.device)))
+      report.contracted.push_back(precision == Precision::single ? "float" : "double");
   } catch (const Error& error) {
     throw check_error(error);
   }

@@ -53,7 +53,8 @@ struct CheckedVessel {
 struct CheckReport {
   std::string scene, device, driver;
   bool is_cpu = false, has_double = false;
-  std::vector<std::string> warnings;  // check_warnings
+  std::vector<std::string> contracted;  // precisions in which the driver contracts what a kernel declares `precise`
+  std::vector<std::string> warnings;    // check_warnings
   std::vector<CheckedVessel> vessels;
   CheckedPair translation;           // device in float, core in float
   CheckedPair cost;                  // core in float, core in double

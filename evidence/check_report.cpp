@@ -93,6 +93,10 @@ std::string check_text(const CheckReport& report) {
   text += fmt::format("\n{} on {} ({}){}; the check compares every number of these grips that a device computes:\n",
                       report.scene.empty() ? "check" : report.scene, report.device, report.driver,
                       report.is_cpu ? ", a CPU driver" : "");
+  text += report.contracted.empty()
+              ? "  the driver rounds products before it adds them, as the kernels ask (NoContraction)\n"
+              : fmt::format("  the driver does NOT round products before it adds them, as the kernels ask (NoContraction), in {}\n",
+                            fmt::join(report.contracted, " and "));
   for (const CheckedVessel& vessel : report.vessels) {
     text += fmt::format(
         "  {}: {} of the scene{}\n", vessel.name, counted(vessel.own, "grip"),
@@ -113,6 +117,7 @@ std::string check_json(const CheckReport& report) {
                  {"driver", report.driver},
                  {"is_cpu_driver", report.is_cpu},
                  {"precisions", report.has_double ? CheckJson::array({"float", "double"}) : CheckJson::array({"float"})},
+                 {"contracted", report.contracted},
                  {"warnings", report.warnings}};
   json["vessels"] = CheckJson::array();
   for (const CheckedVessel& vessel : report.vessels)

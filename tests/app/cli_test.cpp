@@ -207,7 +207,8 @@ TEST(CommandLine, ListsDevicesAndGrippers) {
   EXPECT_EQ(listed.code, 0) << listed.output;
   std::size_t last = 0;
   for (const char* line :
-       {"core  the reference, double precision, all threads  <- --on core\n",
+       {"\n  rounds products before it adds them, as the kernels ask (NoContraction)\n",
+        "core  the reference, double precision, all threads  <- --on core\n",
         "\nsim  a virtual user, always there  <- --device sim\n",
         "\nomega  omega.7, right hand  <- --device omega\n  up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4,000 Hz; SDK 3.17.6"}) {
     const std::size_t at = listed.output.find(line, last);

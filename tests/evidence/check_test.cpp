@@ -34,6 +34,17 @@ TEST(Check, AForeignNameIsNoFailure) {
   EXPECT_EQ(parse_json(check_json(report))["driver"], "driver \uFFFD");
 }
 
+TEST(Check, SaysWhetherProductsAreRounded) {
+  CheckReport report = report_of(true, true, 1);
+  EXPECT_NE(check_text(report).find("  the driver rounds products before it adds them"), std::string::npos);
+  EXPECT_EQ(parse_json(check_json(report))["contracted"].size(), 0u);
+  report.contracted = {"float", "double"};
+  EXPECT_NE(check_text(report).find(
+                "does NOT round products before it adds them, as the kernels ask (NoContraction), in float and double\n"),
+            std::string::npos);
+  EXPECT_EQ(parse_json(check_json(report))["contracted"][0], "float");
+}
+
 TEST(Check, HoldsWhereTheTwinsAgree) {
   const CheckReport report = check_scene(small_scene(), {});
   EXPECT_TRUE(verdict_of(report).holds) << check_text(report);
@@ -51,6 +62,7 @@ TEST(Check, HoldsWhereTheTwinsAgree) {
   EXPECT_EQ(line.find('\n'), line.size() - 1);
   const auto json = parse_json(line);
   EXPECT_EQ(json["scene"], "small");
+  EXPECT_TRUE(json["contracted"].empty());
   EXPECT_TRUE(json["advice"].is_null());
   EXPECT_EQ(json["vessels"][0]["grips_between"], 952);
   ASSERT_EQ(json["comparisons"].size(), json["precisions"].size() + 1);

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "host/run_once.h"
+#include "tests/shaders/probe_shaders.h"
 #include "tests/support/vulkan_kernels.h"
 
 namespace wholehand::host {
@@ -158,6 +159,12 @@ TEST_F(HostKernel, BufferBeyondTheDevicesRangeIsAnError) {
   commands.bind(1, small);
   commands.bind(3, large);
   EXPECT_THROW(commands.dispatch(kernel, {1, 1, 1}), Error);
+}
+
+// Of the probes, the kernel of the same name loses nothing between a product and its sum.
+TEST_F(HostKernel, TellsADriverThatContractsFromOneThatRounds) {
+  EXPECT_TRUE(contracted_precisions(device).empty());
+  EXPECT_EQ(contracted_precisions(device, probe_shaders()), (std::vector{Precision::single, Precision::full}));
 }
 
 // The layer is there and heard: this buffer was not made to be bound.
