@@ -21,29 +21,57 @@ Work work_of(bool only_copies) {
 CommandRecorder::CommandRecorder(DeviceState& device, std::uint32_t family)
     : device_(device),
       work_(work_of(family != device.compute.family)),
-      pool_(*device.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family}),
-      buffers_(*device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1}) {}
+      pool_(*device.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family}) {}
 
 CommandRecorder::~CommandRecorder() {
   leave_behind(device_, pool_);
   for (vk::raii::CommandBuffer& buffer : buffers_) leave_behind(device_, buffer);
 }
 
-void CommandRecorder::begin() { buffers_[0].begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit}); }
+void CommandRecorder::begin() {
+  parts_ = 0;
+  begin_part();
+}
+
+void CommandRecorder::begin_part() {
+  if (parts_ == buffers_.size())
+    buffers_.push_back(std::move(vk::raii::CommandBuffers(*device_.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]));
+  buffers_[parts_++].begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+}
 
 void CommandRecorder::end() {
   const vk::AccessFlags access = work_.reads | work_.writes | Access::eHostRead | Access::eHostWrite;
-  buffers_[0].pipelineBarrier(work_.stages, work_.stages | Stage::eHost, {}, vk::MemoryBarrier(work_.writes, access), {}, {});
-  buffers_[0].end();
+  buffer().pipelineBarrier(work_.stages, work_.stages | Stage::eHost, {}, vk::MemoryBarrier(work_.writes, access), {}, {});
+  buffer().end();
+}
+
+void CommandRecorder::split() {
+  buffer().end();
+  begin_part();
 }
 
 void CommandRecorder::barrier() {
-  buffers_[0].pipelineBarrier(work_.stages, work_.stages, {}, vk::MemoryBarrier(work_.writes, work_.reads | work_.writes), {}, {});
+  buffer().pipelineBarrier(work_.stages, work_.stages, {}, vk::MemoryBarrier(work_.writes, work_.reads | work_.writes), {}, {});
 }
 
 void CommandRecorder::copy(const BufferState& from, const BufferState& to, std::size_t bytes) {
   if (bytes > 0) {
-    buffers_[0].copyBuffer(*from.buffer, *to.buffer, vk::BufferCopy(0, 0, bytes));
+    buffer().copyBuffer(*from.buffer, *to.buffer, vk::BufferCopy(0, 0, bytes));
+  }
+}
+
+void CommandRecorder::submit(const vk::raii::Queue& queue, vk::Semaphore wait, vk::Semaphore signal, vk::Fence fence) const {
+  for (std::size_t part = 0; part < parts_; part++) {
+    const vk::CommandBuffer commands = *buffers_[part];
+    const bool is_last = part + 1 == parts_;
+    vk::SubmitInfo info({}, {}, commands);
+    if (wait && part == 0) {
+      info.setWaitSemaphores(wait).setWaitDstStageMask(work_.stages);
+    }
+    if (signal && is_last) {
+      info.setSignalSemaphores(signal);
+    }
+    queue.submit(info, is_last ? fence : vk::Fence());
   }
 }
 
@@ -54,8 +82,7 @@ bool wait_for(DeviceState& device, vk::Fence fence, double seconds) {
 
 void submit_and_wait(DeviceState& device, const CommandRecorder& recorder) {
   vk::raii::Fence done(*device.device, vk::FenceCreateInfo());
-  const vk::CommandBuffer commands = recorder.commands();
-  device.compute.queue.submit(vk::SubmitInfo({}, {}, commands, {}), *done);
+  recorder.submit(device.compute.queue, {}, {}, *done);
   if (!wait_for(device, *done, device.wait_seconds)) {
     device.hung = true;
     leave_behind(device, done);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A command buffer that is recorded again and again; for host/ alone.
+// Commands that are recorded again and again, in one submit or in several; for host/ alone.
 #pragma once
 
 #include "host/vulkan.h"
@@ -21,18 +21,23 @@ class CommandRecorder {
   void copy(const BufferState& from, const BufferState& to, std::size_t bytes);
   void end();  // what was written is visible to the host and to later submits of the queue
 
-  vk::CommandBuffer commands() const { return *buffers_[0]; }
+  // One submit for each part. The first waits for `wait`, the last signals `signal` and `fence`, where these are given.
+  void submit(const vk::raii::Queue& queue, vk::Semaphore wait, vk::Semaphore signal, vk::Fence fence) const;
 
  protected:
   void barrier();  // what was written before is visible to what follows
-  const vk::raii::CommandBuffer& buffer() const { return buffers_[0]; }
+  void split();    // what follows is a part of its own
+  const vk::raii::CommandBuffer& buffer() const { return buffers_[parts_ - 1]; }
 
   DeviceState& device_;
 
  private:
   Work work_;
   vk::raii::CommandPool pool_;
-  vk::raii::CommandBuffers buffers_;
+  std::vector<vk::raii::CommandBuffer> buffers_;  // one a part, and those of a longer recording before
+  std::size_t parts_ = 0;
+
+  void begin_part();
 };
 
 // Waits for the fence. False: it was not signalled within `seconds`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of dispatches that one submit runs.
+// A list of dispatches that run one after the other.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace wholehand::host {
 
-// What one submit does, in order. Each step sees what those before it wrote.
+// What is done, in order, each step in a submit of its own. A step sees what those before it wrote.
 class Commands {
  public:
-  // From here on `binding` is `buffer` in every kernel that uses it. The buffer must outlive the submit.
+  // From here on `binding` is `buffer` in every kernel that uses it. The buffer must outlive the last submit.
   void bind(std::uint32_t binding, const Buffer& buffer);
 
   // Runs x * y * z groups. Every binding that the kernel uses must be bound (Error otherwise, as for more groups than the device

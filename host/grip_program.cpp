@@ -86,6 +86,10 @@ void add_limits(std::vector<Constant>& constants, const DeviceSteps& steps, cons
 // See force.comp. Eight grips are as fast as four, and two take 1.06 times as long for the whole of grips and forces (docs/results).
 constexpr std::uint32_t FORCES_TOGETHER_ON_CPU = 4;
 
+// States of the liquid in a dispatch: a small GPU has them at work at once, so it takes no longer than one of them (host/step_recorder.h).
+constexpr std::uint32_t LIQUID_PIECE = 1024;
+static_assert(LIQUID_PIECE % GROUP_SIZE == 0);
+
 bool is_off_axis(const VesselArrays& vessel) { return vessel.parameters.center_x != 0 || vessel.parameters.center_z != 0; }
 
 std::size_t real_size(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
@@ -362,7 +366,8 @@ std::unique_ptr<LiquidWork> GripProgram::liquid_work(std::size_t v, const SceneA
   commands.bind(BINDING_LIQUID, work->liquids);
   commands.bind(BINDING_LOADS, work->loads);
   commands.dispatch(*lip, groups_for(on, *lip, rows), Push{rows, 0, 0, 0});
-  commands.dispatch(*liquid, groups_for(on, *liquid, states), Push{states, 0, 0, 0});
+  for (std::uint32_t first = 0; first < states; first += LIQUID_PIECE)
+    commands.dispatch(*liquid, groups_for(on, *liquid, std::min(LIQUID_PIECE, states - first)), Push{states, 0, first, 0});
   return work;
 }
 

@@ -126,8 +126,7 @@ void Slot::submit_upload() {
     upload_->copy(pair.on_host.state(), pair.on_device.state(), pair.bytes);
   }
   upload_->end();
-  const vk::CommandBuffer buffer = upload_->commands();
-  device_.upload.queue.submit(vk::SubmitInfo({}, {}, buffer, *uploaded_));
+  upload_->submit(device_.upload.queue, {}, *uploaded_, {});
 }
 
 void Slot::record_download() {
@@ -142,20 +141,10 @@ void Slot::record_download() {
 
 // The kernels, after what is uploaded and before what is downloaded.
 void Slot::submit_compute() {
-  const vk::PipelineStageFlags at_compute = vk::PipelineStageFlagBits::eComputeShader | vk::PipelineStageFlagBits::eTransfer;
-  const vk::PipelineStageFlags at_copy = vk::PipelineStageFlagBits::eTransfer;
-  const vk::CommandBuffer buffer = compute_.commands();
-  vk::SubmitInfo compute({}, {}, buffer);
-  if (upload_) {
-    compute.setWaitSemaphores(*uploaded_).setWaitDstStageMask(at_compute);
-  }
+  compute_.submit(device_.compute.queue, upload_ ? *uploaded_ : vk::Semaphore(), download_ ? *computed_ : vk::Semaphore(),
+                  download_ ? vk::Fence() : *done_);
   if (download_) {
-    compute.setSignalSemaphores(*computed_);
-  }
-  device_.compute.queue.submit(compute, download_ ? vk::Fence() : *done_);
-  if (download_) {
-    const vk::CommandBuffer copies = download_->commands();
-    device_.download.queue.submit(vk::SubmitInfo(*computed_, at_copy, copies), *done_);
+    download_->submit(device_.download.queue, *computed_, {}, *done_);
   }
 }
 

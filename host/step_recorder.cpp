@@ -15,7 +15,6 @@ StepRecorder::~StepRecorder() {
 }
 
 void StepRecorder::steps(const Commands& commands) {
-  const vk::raii::CommandBuffer& out = buffer();
   std::uint32_t set_count = 0, storage = 0, uniform = 0, texels = 0;
   for (const Commands::Step& step : commands.steps()) {
     if (step.kernel) {
@@ -35,11 +34,14 @@ void StepRecorder::steps(const Commands& commands) {
       *device_.device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, set_count + 1, sizes));
 
   if (*timestamps_) {
-    out.resetQueryPool(*timestamps_, 0, 2);
-    out.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 0);  // bottom: when what came before has finished
+    buffer().resetQueryPool(*timestamps_, 0, 2);
+    buffer().writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_,
+                            0);  // bottom: when what came before has finished
   }
   for (const Commands::Step& step : commands.steps()) {
+    if (&step != &commands.steps().front()) split();
     barrier();
+    const vk::raii::CommandBuffer& out = buffer();
     if (!step.kernel) {
       out.fillBuffer(*step.buffers[0]->state().buffer, 0, VK_WHOLE_SIZE, 0);
       continue;
@@ -65,7 +67,7 @@ void StepRecorder::steps(const Commands& commands) {
     out.dispatch(step.groups[0], step.groups[1], step.groups[2]);
   }
   if (*timestamps_) {
-    out.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
+    buffer().writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The liquid of every fill and tilt of a vessel, one invocation a state, and what glass and liquid weigh together.
+// The liquid of fills and tilts of a vessel, one invocation a state from push.first on, and what glass and liquid weigh together.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -13,7 +13,7 @@ layout(std430, binding = BINDING_LIQUID) writeonly buffer LiquidBlock { Real liq
 layout(std430, binding = BINDING_LOADS) writeonly buffer LoadBlock { Real loads_out[]; };
 
 void main() {
-  uint state = INVOCATION;
+  uint state = push.first + INVOCATION;
   if (state >= push.count) return;
   uint fill = state / scene.tilts;
   uint tilt = state % scene.tilts;

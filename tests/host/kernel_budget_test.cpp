@@ -92,8 +92,8 @@ TEST(KernelBudget, FitsTheRegistersOfGpus) {
       EXPECT_LE(scalars, 32) << label << " on " << chip;
       EXPECT_LE(scratch, 1024) << label << " on " << chip;
       RecordProperty(chip + " " + label + " " + std::to_string(++number),
-                     fmt::format("{} VGPRs, {} SGPRs spilled, {} B of scratch, {} waves", used, scalars, scratch,
-                                 statistic(report_text, "Subgroups per SIMD")));
+                     fmt::format("{} VGPRs, {} SGPRs spilled, {} B of scratch, {} waves, {} cycles of latency", used, scalars,
+                                 scratch, statistic(report_text, "Subgroups per SIMD"), statistic(report_text, "Latency")));
     }
   }
 }

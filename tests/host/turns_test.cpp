@@ -389,6 +389,25 @@ TEST(Turns, LiquidsEndWithinTheirBounds) {
   }
 }
 
+// More states of the liquid than a submit takes: the piece after the first goes on where that ends.
+TEST(Turns, ManyStatesOfALiquidAreSeveralDispatches) {
+  const Scene wet = flask_of_many_states();
+  const auto core = make_core_evaluator(wet);
+  const host::SceneArrays arrays = host::make_scene_arrays(wet, *core, {});
+  host::GripProgram program(wet, arrays, *core, make_field_set({FIELD_SCORE}, wet), "vulkan", {});
+  const std::vector<LiquidResult>& states = program.vessels[0].liquid;
+  ASSERT_GT(states.size(), 1024u);
+  const auto work = program.liquid_work(0, arrays);
+  const std::vector<host::Commands::Step>& steps = work->commands.steps();
+  EXPECT_EQ(steps.size(), 1 + (states.size() + 1023) / 1024) << "of the lip, and of the liquid";
+  for (const host::Commands::Step& step : steps) EXPECT_LE(step.groups[0] * step.groups[1] * GROUP_SIZE, 1024u);
+  for (std::size_t state = 0; state < states.size(); ++state) {
+    const LiquidResult expected =
+        core->liquid(0, arrays.vessels[0].fills[state / wet.tilts.size()], wet.tilts[state % wet.tilts.size()]);
+    EXPECT_NEAR(states[state].volume, expected.volume, 1e-8) << state;  // m3; float's rounding
+  }
+}
+
 // A stiff and nearly massless device: its propagator halves the step as often as it may, with friction in each stop again.
 TEST(Turns, WallsEndWithinTheirBounds) {
   const host::Device on;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A Vulkan layer that shows lavapipe as a discrete GPU: queue families of their own for graphics, for compute and for copies, in place of one for
-// all, and few allocations of memory. It lies under the validation layer, which then sees what a command buffer of each family may hold.
+// all, few allocations of memory, and no patience: a submit of more than one dispatch loses the device. It lies under the validation layer, which then sees what a command buffer of each family may hold.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -49,12 +49,15 @@ struct Below {
   PFN_vkQueueWaitIdle wait_idle = nullptr;
   PFN_vkCreateCommandPool create_pool = nullptr;
   PFN_vkCreateBuffer create_buffer = nullptr;
+  PFN_vkBeginCommandBuffer begin = nullptr;
+  PFN_vkCmdDispatch dispatch = nullptr;
 };
 
 // One instance and one device at a time: those of a test.
 Below below;
 std::mutex mutex;
 std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<Queue>> queues;
+std::map<VkCommandBuffer, int> dispatches;
 
 template <class Function>
 void take(Function& function, PFN_vkVoidFunction address) {
@@ -144,6 +147,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
   take(below.wait_idle, address(*made, "vkQueueWaitIdle"));
   take(below.create_pool, address(*made, "vkCreateCommandPool"));
   take(below.create_buffer, address(*made, "vkCreateBuffer"));
+  take(below.begin, address(*made, "vkBeginCommandBuffer"));
+  take(below.dispatch, address(*made, "vkCmdDispatch"));
   const std::lock_guard lock(mutex);
   queues.clear();
   return result;
@@ -165,7 +170,23 @@ VKAPI_ATTR void VKAPI_CALL get_queue2(VkDevice on, const VkDeviceQueueInfo2* inf
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos, VkFence fence) {
   const std::lock_guard lock(mutex);  // the driver has one queue for all of them
+  int together = 0;
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t k = 0; k < infos[i].commandBufferCount; ++k) together += dispatches[infos[i].pCommandBuffers[k]];
+  if (together > 1) return VK_ERROR_DEVICE_LOST;
   return below.submit(of_driver(queue), count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL begin(VkCommandBuffer commands, const VkCommandBufferBeginInfo* info) {
+  const std::lock_guard lock(mutex);
+  dispatches[commands] = 0;
+  return below.begin(commands, info);
+}
+
+VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  const std::lock_guard lock(mutex);
+  ++dispatches[commands];
+  below.dispatch(commands, x, y, z);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL wait_idle(VkQueue queue) {
@@ -201,7 +222,9 @@ const std::map<std::string, PFN_vkVoidFunction>& own() {
                                                                    {"vkQueueSubmit", plain(submit)},
                                                                    {"vkQueueWaitIdle", plain(wait_idle)},
                                                                    {"vkCreateCommandPool", plain(create_pool)},
-                                                                   {"vkCreateBuffer", plain(create_buffer)}};
+                                                                   {"vkCreateBuffer", plain(create_buffer)},
+                                                                   {"vkBeginCommandBuffer", plain(begin)},
+                                                                   {"vkCmdDispatch", plain(dispatch)}};
   return functions;
 }
 
