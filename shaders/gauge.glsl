@@ -7,6 +7,7 @@
 #include "build.glsl"
 #include "real.glsl"
 
+// What comparisons allow is more than a hundred roundings. So no sum is `precise`: a driver that contracts it moves it by one (docs/drivers.md).
 #if REAL_IS_DOUBLE
 #define ROUNDING 1e-11lf
 #define LEAST_PIVOT 1e-9lf
