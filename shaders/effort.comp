@@ -72,7 +72,8 @@ void main() {
       state = is_rising ? state : k;
       Vec4 tilted = states_in[2u * state + 1u];
       Six wanted = wanted_for(states_in[2u * state], tilted);
-      bool is_past = TASK == EFFORT_SAFE && tilted.z >= Real(0) && !(kept(PLANE_SAFE_TILT, int(tilted.w), grip) >= tilted.z);
+      Real safe_tilt = kept(PLANE_SAFE_TILT, int(tilted.w), grip);
+      bool is_past = TASK == EFFORT_SAFE && tilted.z >= Real(0) && (is_no_number(safe_tilt) || safe_tilt < tilted.z);
       bool is_small = dot6(wanted, wanted) == Real(0) || (!is_rising && bound(wanted, has_basis) <= enough);
       is_solving = !is_past && !is_small;
       if (is_solving) solve = start(wanted);
@@ -100,7 +101,7 @@ void main() {
     [[dont_unroll]] for (bool once = is_solving && solve.done; once; once = false) {
       finish(solve);
       Vec4 tilted = states_in[2u * state + 1u];
-      has_basis = (solve.effort < INFINITE && solve.is_known) || solve.is_beyond;
+      has_basis = (solve.effort < NO_DISTANCE && solve.is_known) || solve.is_beyond;
       is_solving = false;
       // a basis of another load may end in a corner: an effort unknown then is solved from the start
       bool is_told = has_basis || !is_warm;

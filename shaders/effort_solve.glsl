@@ -224,7 +224,7 @@ void finish(inout Solve solve) {
   Real levels[6];
   balanced_levels(solve.wanted, levels);
   Cost cost = cost_of(levels);
-  bool holds = cost.artificial <= ROUNDING * solve.size && solve.effort < INFINITE;
+  bool holds = cost.artificial <= ROUNDING * solve.size && solve.effort < NO_DISTANCE;
   solve.effort = holds ? cost.real : INFINITE;
   solve.is_enough = solve.is_enough && holds;
 }

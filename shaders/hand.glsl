@@ -90,7 +90,7 @@ Real closure_of_gap(Real gap, Real tolerance) {
     if (error < Real(0)) high = closure;
     Real rate = dot(apart, slope) / distance;
     Real next = closure - error / rate;
-    if (!(next > low && next < high)) next = Real(0.5) * (low + high);
+    if (!(distance > Real(0) && next > low && next < high)) next = Real(0.5) * (low + high);
     closure = next;
   }
   return closure;

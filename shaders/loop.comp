@@ -37,7 +37,7 @@ void main() {
     state = step_loop(plant, by, wall, state, press, friction);
     if (push.floor_low != 0u) {
       Real energy = loop_energy(plant, wall, state.motion, press);
-      if (!(energy <= late)) late = energy;
+      if (is_no_number(energy) || energy > late) late = energy;
     }
   }
   KEPT(0) = state.motion.place;

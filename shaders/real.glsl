@@ -51,6 +51,16 @@ layout(constant_id = CONST_FEW_STEPS) const bool FEW_STEPS = false;
 Real smaller(Real a, Real b) { return b < a ? b : a; }
 Real larger(Real a, Real b) { return a < b ? b : a; }
 
+// By its bits: a driver without SignedZeroInfNanPreserve may take comparisons for those of numbers. Such a driver may take all numbers for finite, too:
+// whether one is, the kernels ask by `< NO_DISTANCE`.
+bool is_no_number(Real a) {
+#if REAL_IS_DOUBLE
+  return (unpackDouble2x32(a).y & 0x7fffffffu) > 0x7ff00000u;
+#else
+  return (floatBitsToUint(a) & 0x7fffffffu) > 0x7f800000u;
+#endif
+}
+
 // Index of this invocation where groups run along x and then along y, as the host dispatches them.
 #define INVOCATION ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)
 

@@ -75,7 +75,7 @@ int plane_of_task() { return TASK == EFFORT_PUSH ? PLANE_PUSH : PLANE_FRICTION_N
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
   if (is_plausible(status))
-    return TASK == EFFORT_PUSH || push.first == 0u || kept(plane_of_task(), 0, grip) < INFINITE;
+    return TASK == EFFORT_PUSH || push.first == 0u || kept(plane_of_task(), 0, grip) < NO_DISTANCE;
   put_real(plane_of_task(), 0, grip, NOT_A_NUMBER);
   return false;
 }
@@ -143,7 +143,7 @@ void main() {
     }
     [[dont_unroll]] for (bool once = is_solving && solve.done; once; once = false) {
       finish(solve);
-      has_basis = (solve.effort < INFINITE && solve.is_known) || solve.is_beyond;
+      has_basis = (solve.effort < NO_DISTANCE && solve.is_known) || solve.is_beyond;
       is_solving = false;
       if (!has_basis && is_warm && !is_first) continue;  // once more from the start
       bool is_held = solve.effort * (Real(1) - HALF_TOLERANCE) <= Real(1);
@@ -154,7 +154,7 @@ void main() {
       if (TASK == EFFORT_PUSH) {
         bool is_alone = k == 0u;
         worst = is_alone ? (solve.effort < Real(1) ? worst : INFINITE) : max(worst, solve.effort);
-        k = worst < INFINITE ? k + 1u : number;
+        k = worst < NO_DISTANCE ? k + 1u : number;
         if (is_alone) displaced = solve.wanted;
         has_basis = has_basis && !is_alone;
       } else if (is_first) {
@@ -185,6 +185,6 @@ void main() {
   }
   if (TASK == EFFORT_FRICTION && has_grip && kept(PLANE_WORST_EFFORT, 0, grip) <= Real(1)) friction = min(friction, scene.friction);
   [[dont_unroll]] for (bool once = has_grip; once; once = false)
-    put_real(plane_of_task(), 0, grip, TASK == EFFORT_FRICTION ? (is_first ? Real(0) : friction) : worst < INFINITE ? Real(1) / worst : Real(0));
+    put_real(plane_of_task(), 0, grip, TASK == EFFORT_FRICTION ? (is_first ? Real(0) : friction) : worst < NO_DISTANCE ? Real(1) / worst : Real(0));
   leave_unfinished(grip, k < number);
 }
