@@ -13,12 +13,14 @@
 
 #include "core/evaluator.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/plan.h"
 #include "tests/support/whole_parity.h"
 
 namespace wholehand {
 
-inline std::string extreme_folder() { return std::string(WHOLEHAND_SOURCE_DIR) + "/scene/extreme/"; }
+// Beside the shipped scenes, as tests also run where the sources are not.
+inline std::string extreme_folder() { return scenes_dir() + "/../extreme/"; }
 
 inline Scene extreme_scene(const std::string& name) { return read_scene_file(extreme_folder() + name + ".toml"); }
 
