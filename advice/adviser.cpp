@@ -82,7 +82,7 @@ Adviser::Adviser(const Scene& scene, const BackendOpener& open)
   warm_up();
 }
 
-// A CPU driver compiles a pipeline when it is first used.
+// The first question takes as long as the next ones: buffers are there, and a driver has compiled what it left for the first dispatch.
 void Adviser::warm_up() {
   if (info().backend == "core") return;
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {

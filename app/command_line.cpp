@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/command_line.h"
 
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -112,6 +113,11 @@ int run_program(int argc, char** argv, const Program& program) {
   } catch (const std::exception& error) {
     return report(program, ExitCode::failure, std::string("unexpected failure: ") + error.what());
   }
+}
+
+int end_process(int code) {
+  if (host::has_abandoned_devices()) _exit(code);  // the driver still works on what the end of a process destroys
+  return code;
 }
 
 }  // namespace wholehand

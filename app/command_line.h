@@ -20,4 +20,7 @@ struct Program {
 // Answers the exit code. Whoever links it has the last line of a failure (program/failure_line.h) from the start of the process.
 int run_program(int argc, char** argv, const Program& program);
 
+// The code for main to return. Ends the process where a driver keeps threads of it.
+int end_process(int code);
+
 }  // namespace wholehand

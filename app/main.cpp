@@ -40,5 +40,5 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 1 the answer is no (check; grip: not feasible), 2 wrong usage or input, 3 device or system failure, 130 "
       "interrupted.";
   program.add_commands = add_all;
-  return wholehand::run_program(argc, argv, program);
+  return wholehand::end_process(wholehand::run_program(argc, argv, program));
 }

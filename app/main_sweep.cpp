@@ -10,5 +10,5 @@ int main(int argc, char** argv) {
       "The sweeps of `wholehand`, without its other commands. In a checkout, ./wholehand sweep builds and starts this program.";
   program.footer = "Exit codes: 0 done, 2 wrong usage or input, 3 device or system failure, 130 interrupted.";
   program.add_commands = wholehand::add_sweep_command;
-  return wholehand::run_program(argc, argv, program);
+  return wholehand::end_process(wholehand::run_program(argc, argv, program));
 }

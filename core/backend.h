@@ -21,6 +21,7 @@ struct BackendInfo {
   std::string driver;   // driver name and version; compiler for the core
   Precision precision = Precision::full;
   bool is_cpu = true;
+  double compile_seconds = 0;  // that opening it spent on kernels
 };
 
 // Writes the grips first .. first + count - 1 of a vessel's plan to `out`. Called from any thread.
@@ -35,12 +36,17 @@ struct Candidate {
   std::uint64_t index = 0;  // of the grip within its vessel's plan
 };
 
+constexpr double NO_LEAST_SCORE = -1;  // below every score
+
 struct RunRequest {
   std::size_t vessel = 0;
   std::uint64_t first = 0, last = 0;  // grips [first, last)
   GripSource grips;
   ChunkSink sink;        // may be empty when nothing is kept
   std::size_t best = 0;  // candidates wanted, by score descending, then index ascending; only eligible ones (shaders/status.h)
+  // The least score that the caller wants, which may rise while the run goes on. A grip whose score stays below it at any effort gets no efforts:
+  // its status has STATUS_UNJUDGED, its score is 0, and its efforts are NaN. Null: every plausible grip gets them.
+  const std::atomic<double>* least_score = nullptr;
   const std::atomic<bool>* stop = nullptr;  // set: finish the chunks under way, deliver them, return
 };
 

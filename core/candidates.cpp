@@ -22,6 +22,8 @@ bool BestCandidates::takes(const Candidate& candidate) const {
   return heap_.size() < size_ || (size_ > 0 && is_better(candidate, heap_.front()));
 }
 
+double BestCandidates::least() const { return heap_.empty() || heap_.size() < size_ ? NO_LEAST_SCORE : heap_.front().score; }
+
 void BestCandidates::offer(const std::vector<Candidate>& candidates) {
   for (const Candidate& candidate : candidates) offer(candidate);
 }

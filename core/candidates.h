@@ -19,6 +19,7 @@ class BestCandidates {
   void offer(const Candidate& candidate);
   void offer(const std::vector<Candidate>& candidates);
   bool takes(const Candidate& candidate) const;  // whether it would get in
+  double least() const;                          // the score below which none gets in; NO_LEAST_SCORE while there is room
   std::vector<Candidate> sorted() const;         // the best first
 
  private:

@@ -102,6 +102,7 @@ class CoreRun {
         return;
       }
       const std::uint64_t chunk = taken_++;
+      const double least_score = request_.least_score ? std::max(request_.least_score->load(), best_.least()) : NO_LEAST_SCORE;
       PlaneRoom& slot = slots_[chunk % slots_.size()];
       if (busy_++ == 0) busy_since_ = Clock::now();
       lock.unlock();
@@ -109,7 +110,8 @@ class CoreRun {
       BestCandidates best(request_.best);
       try {
         request_.grips(request_.vessel, first_of(chunk), count_of(chunk), grips.data());
-        evaluator_.planes(request_.vessel, grips.data(), count_of(chunk), fields_, chunk_, slot.reals.data(), slot.uints.data());
+        evaluator_.planes(request_.vessel, grips.data(), count_of(chunk), fields_, chunk_, slot.reals.data(), slot.uints.data(),
+                          least_score);
         if (request_.best > 0) offer(slot, chunk, best);
       } catch (...) {
         failure = std::current_exception();

@@ -241,7 +241,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   void planes(std::size_t v, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride, double* reals,
-              std::uint32_t* uints) const override {
+              std::uint32_t* uints, double least_score) const override {
     const Wanted wanted{fields.has(FIELD_JOINTS), fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH)};
     GripAnswer answer;
     std::vector<FillEffort> fill_efforts(states_.fills());
@@ -252,9 +252,15 @@ class CoreEvaluator final : public wholehand::Evaluator {
       put_closing(row, answer);
       if (answer.closing.reason != REASON_NONE) continue;
       put_pose(row, answer);
+      if (least_score > 0 && has_effort_ && wholehand::is_plausible(answer.status)) {
+        LargestForces largest = put_states(row, entries_[v], answer, nullptr);
+        largest.effort = Real(0);
+        if (double(states_.weighted(score_terms(entries_[v], answer, largest))) < least_score) answer.status |= STATUS_UNJUDGED;
+      }
       const std::optional<Real> effort = put_efforts(row, entries_[v], answer, fill_efforts);
       LargestForces largest = put_states(row, entries_[v], answer, effort ? fill_efforts.data() : nullptr);
-      if (has_effort_) largest.effort = effort.value_or(std::numeric_limits<Real>::infinity());
+      if (has_effort_)
+        largest.effort = effort.value_or((answer.status & STATUS_UNJUDGED) != 0 ? Real(0) : std::numeric_limits<Real>::infinity());
       put_score(row, entries_[v], answer, largest);
     }
   }
@@ -400,7 +406,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   // The efforts of a plausible grip: the worst one, and `fills`. Nothing for any other grip, or in a scene without efforts.
   std::optional<Real> put_efforts(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
                                   std::span<FillEffort> fills) const {
-    if (!has_effort_ || !wholehand::is_plausible(answer.status)) return std::nullopt;
+    if (!has_effort_ || !wholehand::is_plausible(answer.status) || (answer.status & STATUS_UNJUDGED) != 0) return std::nullopt;
     const HeldHand hand = held_hand(entry, answer.posed, answer.touch_mask, answer.closing.gap);
     const bool of_tips = row.fields.has(FIELD_TIPS_WORST_EFFORT) || row.fields.has(FIELD_LARGEST_HOLD);
     const GripLoads loads = states_.loads(entry, {answer.closing.direction, answer.closing.midpoint, is_antipodal(answer)});
@@ -479,10 +485,14 @@ class CoreEvaluator final : public wholehand::Evaluator {
     return largest;
   }
 
-  void put_score(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer, LargestForces largest) const {
+  std::array<Real, 6> score_terms(const VesselEntry& entry, const GripAnswer& answer, const LargestForces& largest) const {
     const ScoredHand hand{answer.used_mask,  answer.touch_mask,      answer.phalanx_depth,
                           answer.palm_depth, answer.closing.closure, scene_.arm ? std::optional(answer.wrist.share) : std::nullopt};
-    const auto terms = states_.score_terms(hand, largest, entry.force.max);
+    return states_.score_terms(hand, largest, entry.force.max);
+  }
+
+  void put_score(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer, const LargestForces& largest) const {
+    const auto terms = score_terms(entry, answer, largest);
     for (int k = 0; k < 6; ++k) row.put(FIELD_TERMS, k, terms[k]);
     const std::uint32_t status =
         answer.status | (is_not_held(wholehand::is_plausible(answer.status), largest) ? STATUS_NOT_HELD : 0u);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/backend.h"
 #include "core/planes.h"
 #include "core/prepared.h"
 #include "core/result.h"
@@ -65,8 +66,9 @@ class Evaluator {
 
   // `count` grips into planes of `stride` doubles (uints likewise). Infeasible grips get NaN reals from the
   // first that does not exist (t, gap and midpoint do from too_wide on); score and terms 0. States that are left out are NaN.
+  // `least_score` as of RunRequest.
   virtual void planes(std::size_t vessel, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride,
-                      double* reals, std::uint32_t* uints) const = 0;
+                      double* reals, std::uint32_t* uints, double least_score = NO_LEAST_SCORE) const = 0;
 
   // Signed distance and its gradient (unit) at a point of the vessel frame, m.
   virtual double distance(std::size_t vessel, const Triple& point) const = 0;

@@ -172,9 +172,9 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
       checking.add(v, sample.grips);
       report.vessels.push_back({scene.vessels[v].name, sample.own, sample.grips.size() - sample.own});
     }
-    checking.tell(report, samples);
     for (const Precision precision : host::contracted_precisions(host::Device(options.on, options.device)))
       report.contracted.push_back(precision == Precision::single ? "float" : "double");
+    checking.tell(report, samples);
   } catch (const Error& error) {
     throw check_error(error);
   }

@@ -3,6 +3,7 @@
 #include "host/device.h"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 
 #include "host/pipeline_cache.h"
@@ -10,6 +11,8 @@
 
 namespace wholehand::host {
 namespace {
+
+std::atomic<bool> is_any_abandoned{false};
 
 // Queues: one that computes, and one or two of a family that only copies, where there is one. With one of these it reads back,
 // which is the larger part: were it to upload as well, the next chunk's upload would wait behind this chunk's read-back.
@@ -94,10 +97,19 @@ DeviceState::~DeviceState() {
   const std::lock_guard lock(mutex);
   abandoned.push_back(instance);
   leave_behind(*this, *cache, *device);
+  is_any_abandoned = true;
 }
 Device::~Device() = default;
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
+
+void Device::abandon() {
+  state_->hung = true;
+  static_cast<void>(state_.release());  // never freed: the driver works on it when the process ends
+  is_any_abandoned = true;
+}
+
+bool has_abandoned_devices() { return is_any_abandoned; }
 
 const DeviceInfo& Device::info() const { return state_->info; }
 void Device::wait_idle() {

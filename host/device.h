@@ -11,6 +11,9 @@ namespace wholehand::host {
 
 struct DeviceState;  // vulkan.h
 
+// Whether a driver did not return, so that a device and its threads were left behind.
+bool has_abandoned_devices();
+
 // A device with its queues. Used from one thread at a time; outlives the buffers and kernels made on it.
 class Device {
  public:
@@ -21,6 +24,8 @@ class Device {
 
   const DeviceInfo& info() const;
   void wait_idle();
+  // Leaves all that the device has to a driver that does not return; nothing may be called afterwards.
+  void abandon();
 
   DeviceState& state() const { return *state_; }  // for host/ alone
 

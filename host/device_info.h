@@ -58,11 +58,12 @@ struct DeviceInfo {
 };
 
 struct DeviceOptions {
-  bool validation = false;     // the validation layer; also on where the environment has WHOLEHAND_VALIDATION=1
-  std::string loader{};        // the library without which there is no Vulkan; empty: libvulkan.so.1 (a test names another)
-  bool unified_memory = true;  // false: stage every transfer, as a discrete GPU needs (for tests on a CPU driver)
-  double wait_seconds = 120;   // longest wait for what is run once and for a stream's first chunk: the driver may compile there
-  std::string cache_folder{};  // of compiled pipelines; empty: $XDG_CACHE_HOME/wholehand, and none for a CPU driver
+  bool validation = false;        // the validation layer; also on where the environment has WHOLEHAND_VALIDATION=1
+  bool has_own_instance = false;  // shares none with other devices of the process
+  std::string loader{};           // the library without which there is no Vulkan; empty: libvulkan.so.1 (a test names another)
+  bool unified_memory = true;     // false: stage every transfer, as a discrete GPU needs (for tests on a CPU driver)
+  double wait_seconds = 120;      // longest wait for what is run once and for a stream's first chunk: the driver may compile there
+  std::string cache_folder{};     // of compiled pipelines; empty: $XDG_CACHE_HOME/wholehand, and none for a CPU driver
 };
 
 // Whether it is Mesa's CPU driver, which takes the wide build of the kernels (shaders/build.glsl).

@@ -74,6 +74,7 @@ struct GripBackend::Impl {
     info.driver = program().on.info().driver;
     info.precision = options.precision;
     info.is_cpu = program().on.info().kind == DeviceKind::cpu;
+    info.compile_seconds = program().compile_seconds;
   }
 
   static StreamOptions with_select_multiple(StreamOptions stream_options) {
@@ -297,7 +298,8 @@ struct GripBackend::Impl {
       // grips come in ascending order, so of equal scores those already found stand first
       const bool is_full = selection.best > 0 && result.best.size() == selection.best;
       const double floor_score = is_full ? result.best.back().score : -1;
-      static_cast<GripProgram&>(made).record(request.vessel, chunk, selection.best, floor_score, commands);
+      const double least_score = request.least_score ? std::max(request.least_score->load(), floor_score) : NO_LEAST_SCORE;
+      static_cast<GripProgram&>(made).record(request.vessel, chunk, selection.best, floor_score, least_score, commands);
     };
     work.fallback = [&](const Chunk& chunk, std::span<const std::span<std::byte>> outputs) {
       evaluate_on_core<Real>(request, chunk, outputs, selection.best);
@@ -350,15 +352,11 @@ struct GripBackend::Impl {
   std::vector<GripInput> grips;
   Stream stream;
   BackendInfo info;
-  double setup_seconds = 0;
 };
 
 GripBackend::GripBackend(const Scene& scene, std::shared_ptr<const Evaluator> core, const FieldSet& fields,
-                         const std::string& selector, const GripBackendOptions& options) {
-  const double start = monotonic_now();
-  impl_ = std::make_unique<Impl>(scene, std::move(core), fields, selector, options);
-  impl_->setup_seconds = monotonic_now() - start;
-}
+                         const std::string& selector, const GripBackendOptions& options)
+    : impl_(std::make_unique<Impl>(scene, std::move(core), fields, selector, options)) {}
 
 GripBackend::~GripBackend() = default;
 
@@ -408,7 +406,5 @@ std::size_t GripBackend::table_bytes() const {
   }
   return bytes;
 }
-
-double GripBackend::setup_seconds() const { return impl_->setup_seconds; }
 
 }  // namespace wholehand::host

@@ -40,8 +40,6 @@ class GripBackend final : public Backend {
   std::size_t bytes_per_grip() const;
   // Bytes of what all grips share on the device: outlines or lattices, hand, states, quadrature.
   std::size_t table_bytes() const;
-  // Seconds that creating the device and the pipelines took.
-  double setup_seconds() const;
 
   struct Impl;
 

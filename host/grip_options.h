@@ -8,6 +8,7 @@
 
 #include "core/backend.h"
 #include "core/evaluator.h"
+#include "host/compile.h"
 #include "host/device.h"
 #include "host/shaders.h"
 #include "host/stream_request.h"
@@ -20,6 +21,7 @@ struct GripBackendOptions {
   std::optional<KernelBuild> build{};      // in place of what suits the device, to compare
   EvaluatorOptions evaluator;              // as the core's: lattice instead of outline, tolerances, ..
   DeviceOptions device;
+  CompileWatch compile_watch{};  // called while kernels are compiled
   StreamOptions stream;
   // Grips of an invocation of the kernel of forces; 0: what suits the device. The bits are the same.
   std::uint32_t forces_together = 0;

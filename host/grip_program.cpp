@@ -7,10 +7,11 @@
 #include <functional>
 #include <set>
 
-#include "core/parallel.h"
 #include "core/touch.h"
+#include "host/compile.h"
 #include "host/run_once.h"
 #include "host/turns.h"
+#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {
@@ -94,6 +95,12 @@ bool is_off_axis(const VesselArrays& vessel) { return vessel.parameters.center_x
 
 std::size_t real_size(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
 
+// A score as kernels read it.
+std::array<std::uint32_t, 2> bits_of(double score, Precision precision) {
+  if (precision == Precision::single) return {std::bit_cast<std::uint32_t>(static_cast<float>(score)), 0};
+  return std::bit_cast<std::array<std::uint32_t, 2>>(score);
+}
+
 // Also planes that nobody asked for and that the kernels of a grip hand on to each other.
 FieldSet with_handed_on(FieldSet fields, const Scene& scene) {
   const auto add = [&](int field, int planes) {
@@ -158,21 +165,22 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
     std::optional<Kernel>* kernel;
     const char* name;
     int task;
-    std::vector<Constant> constants;
   };
   has_efforts_ = fields.has(FIELD_WORST_EFFORT);
   const int contacts = fields.real_planes + PLACED_STRIDE;  // first plane
   real_planes = contacts + (has_efforts_ ? CONTACT_STRIDE * JOINTS : 0);
-  std::vector<EffortKernel> efforts{{&worst_effort, "effort", EFFORT_WORST, {}}};
-  if (fields.has(FIELD_TIPS_WORST_EFFORT)) efforts.push_back({&tips_effort, "effort", EFFORT_TIPS, {}});
-  if (fields.has(FIELD_SAFE_TILT)) efforts.push_back({&safe_effort, "effort", EFFORT_SAFE, {}});
-  if (fields.has(FIELD_PUSH)) efforts.push_back({&push_reserve, "reserve", EFFORT_PUSH, {}});
-  if (fields.has(FIELD_FRICTION_NEEDED)) efforts.push_back({&friction_reserve, "reserve", EFFORT_FRICTION, {}});
+  std::vector<EffortKernel> efforts{{&worst_effort, "effort", EFFORT_WORST}};
+  if (fields.has(FIELD_TIPS_WORST_EFFORT)) efforts.push_back({&tips_effort, "effort", EFFORT_TIPS});
+  if (fields.has(FIELD_PUSH)) efforts.push_back({&push_reserve, "reserve", EFFORT_PUSH});
+  if (fields.has(FIELD_FRICTION_NEEDED)) efforts.push_back({&friction_reserve, "reserve", EFFORT_FRICTION});
 
-  // making a pipeline takes a core a tenth of a second, so they are made side by side
-  std::vector<std::function<void()>> tasks;
-  const auto kernel_of = [&](const char* name, OutlineSource outline, const std::vector<Constant>& values) {
-    return Kernel(on, find_shader(name, options.precision, build_, outline, options.shaders), values, name);
+  std::vector<KernelRequest> requests;
+  std::vector<std::function<void(Kernel &&)>> places;
+  const auto request = [&](const char* name, OutlineSource outline, std::vector<Constant> values, std::size_t texel_bytes,
+                           std::function<void(Kernel &&)> place) {
+    requests.push_back(
+        {name, find_shader(name, options.precision, build_, outline, options.shaders), std::move(values), texel_bytes});
+    places.push_back(std::move(place));
   };
   for (const VesselArrays& vessel : arrays.vessels) {
     if (vessel.lattice || vessel.outline_count > MAX_OUTLINE) continue;
@@ -190,17 +198,16 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
       const auto owner =
           std::ranges::find_if(grips, [&](const auto& kernels) { return std::ranges::find(kernels, kernel) != kernels.end(); });
       if (owner == grips.begin() + static_cast<std::ptrdiff_t>(v))
-        tasks.push_back([&, v] {
-          vessels[v].*kernel.place = std::make_shared<Kernel>(kernel_of(kernel.name, kernel.outline, kernel.constants));
-        });
+        request(kernel.name, kernel.outline, kernel.constants, vessels[v].lattice.size(),
+                [&place = vessels[v].*kernel.place](Kernel&& made) { place = std::make_shared<Kernel>(std::move(made)); });
     }
   const auto make = [&](std::optional<Kernel>& kernel, const char* name, const std::vector<Constant>& values) {
-    tasks.push_back([&kernel, name, &values, &kernel_of] { kernel.emplace(kernel_of(name, OUTLINE_NONE, values)); });
+    request(name, OUTLINE_NONE, values, 0, [&kernel](Kernel&& made) { kernel.emplace(std::move(made)); });
   };
   const std::vector<Constant> common = common_constants();
   if (has_efforts_) {
-    for (auto& [kernel, name, task, values] : efforts) {
-      values = constants;
+    for (auto& [kernel, name, task] : efforts) {
+      std::vector<Constant> values = constants;
       values.push_back({CONST_CONTACTS, std::int32_t(contacts)});
       values.push_back({CONST_EFFORT_TASK, std::int32_t(task)});
       const double tolerance = options.evaluator.effort_tolerance;
@@ -216,7 +223,10 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   if (tilt_count > 0 && fields.has(FIELD_PEAK_FORCE)) make(force, "force", constants);
   make(score, "score", constants);
   make(select, "select", constants);
-  in_parallel(tasks.size(), 0, [&](std::size_t k) { tasks[k](); });
+  const double start = monotonic_now();
+  std::vector<Kernel> made = compile(on, options.device, std::move(requests), options.compile_watch);
+  for (std::size_t k = 0; k < made.size(); ++k) places[k](std::move(made[k]));
+  compile_seconds = monotonic_now() - start;
   for (std::size_t v = 0; v < vessels.size(); ++v)
     for (const GripKernel& kernel : grips[v])
       for (std::size_t other = 0; !(vessels[v].*kernel.place); ++other)
@@ -228,8 +238,7 @@ std::vector<const Kernel*> GripProgram::kernels() const {
   std::set<const Kernel*> made;
   for (const VesselOnDevice& vessel : vessels)
     for (const auto& kernel : {vessel.closure, vessel.rest, vessel.contact, vessel.overlap}) made.insert(kernel.get());
-  for (const auto* kernel :
-       {&force, &score, &select, &lip, &liquid, &worst_effort, &tips_effort, &safe_effort, &push_reserve, &friction_reserve})
+  for (const auto* kernel : {&force, &score, &select, &lip, &liquid, &worst_effort, &tips_effort, &push_reserve, &friction_reserve})
     made.insert(*kernel ? &**kernel : nullptr);
   made.erase(nullptr);
   return {made.begin(), made.end()};
@@ -401,23 +410,28 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
 }
 
 // After the forces: a safe tilt of theirs is lowered where the hand no longer holds.
-void GripProgram::record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, Commands& commands) const {
-  const auto go_through = [&](const Kernel& kernel, const std::vector<Buffer>& blocks, std::uint32_t states) {
+void GripProgram::record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, double least_score,
+                                 Commands& commands) const {
+  const auto floor_bits = bits_of(least_score, precision_);
+  const auto go_through = [&](const Kernel& kernel, const std::vector<Buffer>& blocks, std::uint32_t states, bool is_safe = false) {
     for (std::uint32_t first = 0; first < states; first += STATES_IN_BLOCK) {
       commands.bind(BINDING_STATES, blocks[first / STATES_IN_BLOCK]);
       commands.dispatch(kernel, groups_for(on, kernel, count),
-                        Push{count, stride, first, std::min<std::uint32_t>(STATES_IN_BLOCK, states - first)});
+                        Push{count, stride, first, std::min<std::uint32_t>(STATES_IN_BLOCK, states - first), floor_bits[0],
+                             floor_bits[1], is_safe});
     }
   };
   const VesselOnDevice& vessel = vessels[v];
+  if (least_score > 0) commands.dispatch(*score, groups_for(on, *score, count), Push{count, stride, 0, 0, 0, 0, 1});
   go_through(*worst_effort, vessel.worst_states, vessel.worst_count);
   if (tips_effort) go_through(*tips_effort, vessel.worst_states, vessel.worst_count);
   if (push_reserve) go_through(*push_reserve, vessel.worst_states, 1);
   if (friction_reserve) go_through(*friction_reserve, vessel.worst_states, vessel.worst_count);
-  if (safe_effort) go_through(*safe_effort, vessel.safe_states, vessel.safe_count);
+  if (fields.has(FIELD_SAFE_TILT)) go_through(*worst_effort, vessel.safe_states, vessel.safe_count, true);
 }
 
-void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands) {
+void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, double floor_score, double least_score,
+                         Commands& commands) {
   const VesselOnDevice& vessel = vessels[v];
   const auto count = static_cast<std::uint32_t>(chunk.count), stride = static_cast<std::uint32_t>(chunk.stride);
   commands.bind(BINDING_PARAMETERS, vessel.parameters);
@@ -434,7 +448,7 @@ void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, do
                         Push{count, stride, first, std::min<std::uint32_t>(STATES_IN_BLOCK, states - first)});
     }
   }
-  if (has_efforts_) record_efforts(v, count, stride, commands);
+  if (has_efforts_) record_efforts(v, count, stride, least_score, commands);
   commands.dispatch(*score, groups_for(on, *score, count), Push{count, stride, 0, 0});
   if (best == 0) return;
   const auto wanted = static_cast<std::uint32_t>(best);
@@ -443,12 +457,7 @@ void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, do
     passes.push_back(entries);
     if (entries <= SELECT_ENTRIES) break;
   }
-  std::array<std::uint32_t, 2> floor_bits{};
-  if (precision_ == Precision::single) {
-    floor_bits[0] = std::bit_cast<std::uint32_t>(static_cast<float>(floor_score));
-  } else {
-    floor_bits = std::bit_cast<std::array<std::uint32_t, 2>>(floor_score);
-  }
+  const auto floor_bits = bits_of(floor_score, precision_);
   // the halves alternate so that the last pass ends in the first
   std::uint32_t from = 0;
   bool into_first = passes.size() % 2 == 1;

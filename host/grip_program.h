@@ -37,8 +37,8 @@ struct GripProgram final : Program {
   Device& device() override { return on; }
 
   // Dispatches the kernels of a chunk whose buffers are bound; `best`: how many candidates the selection leaves, of those with a score
-  // above `floor_score`.
-  void record(std::size_t vessel, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands);
+  // above `floor_score`. Efforts are computed of grips whose score may reach `least_score`.
+  void record(std::size_t vessel, const Chunk& chunk, std::size_t best, double floor_score, double least_score, Commands& commands);
 
   // The liquid of a vessel with a cavity over all fills and tilts, in a scene with liquid and tilts: buffers, and the dispatches that fill them.
   std::unique_ptr<LiquidWork> liquid_work(std::size_t vessel, const SceneArrays& arrays) const;
@@ -55,8 +55,9 @@ struct GripProgram final : Program {
   Buffer hand, tilts, quadrature;
   std::vector<VesselOnDevice> vessels;
   std::optional<Kernel> force, score, select;
-  std::optional<Kernel> lip, liquid;                                                             // in a scene with liquid and tilts
-  std::optional<Kernel> worst_effort, tips_effort, safe_effort, push_reserve, friction_reserve;  // in a scene with efforts
+  std::optional<Kernel> lip, liquid;                                                // in a scene with liquid and tilts
+  std::optional<Kernel> worst_effort, tips_effort, push_reserve, friction_reserve;  // in a scene with efforts
+  double compile_seconds = 0;
   std::uint32_t forces_together = 1;  // grips of an invocation of `force`
   std::uint32_t fill_count = 0, tilt_count = 0;
   FieldSet fields;      // those asked for, and what the kernels of a grip hand on to each other
@@ -76,7 +77,7 @@ struct GripProgram final : Program {
                    const GripBackendOptions& options);
   void upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays, const std::vector<double>& loads);
   std::vector<Buffer> upload_blocks(const std::vector<double>& states);
-  void record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, Commands& commands) const;
+  void record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, double least_score, Commands& commands) const;
 };
 
 }  // namespace wholehand::host

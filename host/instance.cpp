@@ -141,7 +141,7 @@ Instance::Instance(const DeviceOptions& options) {
 std::shared_ptr<Instance> acquire_instance(const DeviceOptions& options) {
   static std::mutex mutex;
   static std::weak_ptr<Instance> kept[2];
-  if (!options.loader.empty()) {
+  if (!options.loader.empty() || options.has_own_instance) {
     return std::make_shared<Instance>(options);
   }
   const std::lock_guard lock(mutex);

@@ -96,7 +96,11 @@ std::vector<std::uint32_t> kept_widths(const DeviceInfo& device, const ShaderInt
 }  // namespace
 
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::span<const Constant> constants, std::string name)
-    : state_(new KernelState{device.state()}) {
+    : Kernel(device.state(), words, constants, std::move(name)) {}
+
+Kernel::Kernel(const DeviceState& device, std::span<const std::uint32_t> words, std::span<const Constant> constants,
+               std::string name)
+    : state_(new KernelState{device}) {
   const DeviceState& on = state_->device;
   const ShaderInterface shader = read_interface(words, name);
   if (shader.float64 && !on.info.float64) {

@@ -31,6 +31,7 @@ class Kernel {
   static constexpr std::size_t MAX_PUSH = 128;  // bytes of push constants: what every device takes
 
   Kernel(const Device& device, std::span<const std::uint32_t> words, std::span<const Constant> constants, std::string name);
+  Kernel(const DeviceState& device, std::span<const std::uint32_t> words, std::span<const Constant> constants, std::string name);
   ~Kernel();
   Kernel(Kernel&&) noexcept;
   Kernel& operator=(Kernel&&) noexcept;

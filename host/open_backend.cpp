@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/open_backend.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -9,11 +11,13 @@
 #include "core/error.h"
 #include "host/device.h"
 #include "host/grip_backend.h"
+#include "system/clock.h"
+#include "system/progress.h"
 
 namespace wholehand {
 
 std::unique_ptr<Backend> open_backend(const Scene& scene, const FieldSet& fields, const std::string& on, Precision precision,
-                                      int threads) {
+                                      int threads, const host::CompileWatch& watch) {
   if (on.empty()) throw usage_error("the name of the device is empty; give core, vulkan or a device's name");
   if (on == "core") {
     auto evaluator = precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
@@ -21,7 +25,17 @@ std::unique_ptr<Backend> open_backend(const Scene& scene, const FieldSet& fields
   }
   host::GripBackendOptions options;
   options.precision = precision;
+  options.compile_watch = watch;
   return std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, on, options);
+}
+
+host::CompileWatch show_compiling() {
+  return [start = monotonic_now(), is_shown = false](const host::DeviceInfo& device, std::size_t done, std::size_t count) mutable {
+    if (done < count && monotonic_now() - start < 1) return;
+    if (done < count) show_status(fmt::format("compiling kernels for {} (first time), {} of {}", device.name, done, count));
+    if (done == count && is_shown) show_status("");
+    is_shown = done < count;
+  };
 }
 
 std::uint64_t largest_buffer(const std::string& on) {

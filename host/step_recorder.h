@@ -15,9 +15,7 @@ class StepRecorder : public CommandRecorder {
   ~StepRecorder();
 
   // With a timestamp before and after. Each step is a submit of its own, because a driver may end one that computes for seconds
-  // (Linux 7's amdgpu after 2 s). The longest invocations are those of efforts and reserves: 4,100 pivots a dispatch, of some 67,000
-  // cycles each as AMD's compiler counts them for VEGA10, which is 0.3 s at 1 GHz. A small GPU runs the 1,024 invocations of a
-  // stream's first chunk, or of a piece of the liquid (make_liquid), side by side. Later chunks follow the time that was measured.
+  // (docs/drivers.md).
   void steps(const Commands& commands);
   double seconds() const;  // of the steps, by the device; negative where it has no timestamps
 

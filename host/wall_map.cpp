@@ -85,7 +85,7 @@ struct WallMap::Impl {
       Commands commands;
       commands.bind(BINDING_GRIPS, given);
       commands.bind(BINDING_REAL_OUT, state);
-      const Push push{count, count, done == 0 ? 1u : 0u, static_cast<std::uint32_t>(number), is_late ? 1u : 0u, 0};
+      const Push push{count, count, done == 0 ? 1u : 0u, static_cast<std::uint32_t>(number), 0, 0, is_late ? 1u : 0u};
       commands.dispatch(kernel, groups_for(on, kernel, count), push);
       const double taken = run_once(on, commands);
       seconds += taken;

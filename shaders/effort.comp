@@ -8,6 +8,8 @@
 
 #define JUST_HELD (Real(1) + ROUNDING)  // see core/grip_effort.cpp
 
+bool is_safe;  // whether this dispatch is for safe tilts
+
 // The state that the last lower bound's direction bounds most, where that is more than `most`.
 uint highest(Solve solve, Real most, uint state) {
   for (uint i = 0u; i < push.number; ++i) {
@@ -25,12 +27,17 @@ void put_worst(Real worst, Vec4 tilted, uint grip) {
   put_real(PLANE_WORST_EFFORT_TILT, 0, grip, tilted.z);
 }
 
-// Whether this task has something to do for a grip. NaN where a grip is not plausible.
+// Whether this task has something to do for a grip. NaN where a grip is not plausible, or not judged.
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  if (is_plausible(status))
-    return TASK != EFFORT_SAFE || kept(PLANE_WORST_EFFORT, 0, grip) > JUST_HELD;
-  if (TASK == EFFORT_SAFE) {
+  // the score is an upper bound so far, where a run has a floor
+  bool is_new = TASK == EFFORT_WORST && !is_safe && push.first == 0u && push_floor() > Real(0);
+  if (is_plausible(status) && is_new && real_out[uint(PLANE_SCORE) * push.stride + grip] < push_floor()) {
+    status |= STATUS_UNJUDGED;
+    put_uint(PLANE_STATUS, grip, status);
+  }
+  if (is_plausible(status) && (status & STATUS_UNJUDGED) == 0u) return !is_safe || kept(PLANE_WORST_EFFORT, 0, grip) > JUST_HELD;
+  if (is_safe) {
     for (uint fill = 0u; fill < scene.fills; ++fill) put_real(PLANE_SAFE_TILT, int(fill), grip, NOT_A_NUMBER);
   } else {
     put_worst(NOT_A_NUMBER, Vec4(NOT_A_NUMBER), grip);
@@ -39,6 +46,7 @@ bool is_busy(uint grip) {
 }
 
 void main() {
+  is_safe = TASK == EFFORT_WORST && push.flag != 0u;
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
   // a driver skips a loop of one turn that no lane takes; it does not skip a branch
@@ -51,13 +59,13 @@ void main() {
   }
   // the largest effort so far; one up to `enough` need not be known
   Real worst = Real(0);
-  if (TASK != EFFORT_SAFE && has_grip) {
+  if (!is_safe && has_grip) {
     if (push.first == 0u) put_worst(worst, states_in[1], grip);
     worst = kept(TASK == EFFORT_TIPS ? PLANE_TIPS_WORST_EFFORT : PLANE_WORST_EFFORT, 0, grip);
   }
   // first the search goes where the direction of a lower bound is highest, not yet exactly; then each other state is compared with what it found
   int rises = DEVICE_RISES;
-  bool is_rising = TASK != EFFORT_SAFE;
+  bool is_rising = !is_safe;
   uint state = 0u;
   int pivots = 0;  // since the inverse was refined
   Solve solve;
@@ -65,15 +73,18 @@ void main() {
   int turns = 0;
   uint k = has_grip ? 0u : push.number;
   for (; k < push.number && turns < EFFORT_TURNS; ++turns) {
-    Real enough = TASK == EFFORT_SAFE ? JUST_HELD : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
+    Real enough = is_safe ? JUST_HELD : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
     // skips states that the last basis shows to be small, or that nothing depends on
     bool is_new = !is_solving;
     while (k < push.number && !is_solving) {
       state = is_rising ? state : k;
       Vec4 tilted = states_in[2u * state + 1u];
       Six wanted = wanted_for(states_in[2u * state], tilted);
-      Real safe_tilt = kept(PLANE_SAFE_TILT, int(tilted.w), grip);
-      bool is_past = TASK == EFFORT_SAFE && tilted.z >= Real(0) && (is_no_number(safe_tilt) || safe_tilt < tilted.z);
+      bool is_past = false;
+      [[dont_unroll]] for (bool once = is_safe && tilted.z >= Real(0); once; once = false) {
+        Real safe_tilt = kept(PLANE_SAFE_TILT, int(tilted.w), grip);
+        is_past = is_no_number(safe_tilt) || safe_tilt < tilted.z;
+      }
       bool is_small = dot6(wanted, wanted) == Real(0) || (!is_rising && bound(wanted, has_basis) <= enough);
       is_solving = !is_past && !is_small;
       if (is_solving) solve = start(wanted);
@@ -91,7 +102,7 @@ void main() {
       pivots = 0;
     }
     pivots += is_solving ? 1 : 0;
-    step(solve, tolerance, enough, TASK == EFFORT_SAFE ? JUST_HELD : INFINITE, is_solving);
+    step(solve, tolerance, enough, is_safe ? JUST_HELD : INFINITE, is_solving);
     // where no column enters and the effort is not known, rounding may have gathered: once more from a refined inverse
     bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
     if (is_solving && solve.done && !is_told_apart && pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
@@ -112,7 +123,7 @@ void main() {
         state = next;
       }
       if (is_coarse || !is_told) continue;
-      if (TASK == EFFORT_SAFE) {
+      if (is_safe) {
         if (!solve.is_enough && solve.effort > JUST_HELD) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
       } else if (!solve.is_enough && solve.effort > max(enough, worst)) {
         worst = solve.effort;

@@ -122,6 +122,7 @@
 #define STATUS_OUT_OF_TURNS 0x200000 // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
 #define STATUS_NOT_HELD 0x400000    // bit 22: a plausible grip whose worst effort is above 1
 #define STATUS_BEYOND_WRIST 0x800000 // bit 23: no arm reaches the hand within the ranges of its wrist and forearm and above the table
+#define STATUS_UNJUDGED 0x1000000   // bit 24: a plausible grip whose efforts are not computed: no effort takes its score to the least that is wanted
 
 // ---- kinds, as specialization constants ----
 #define POSE_ARTICULATED 0
@@ -260,16 +261,15 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define PLACED_BEFORE 12
 #define PLACED_STRIDE 13
 
-// A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for EFFORT_SAFE, the angle of the tilt before (-1: none)
+// A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for safe tilts, the angle of the tilt before (-1: none)
 // and the number of its fill, else the angle of its tilt and its fill as a fraction.
 // Where a joint presses: the place on the surface and the inward normal there; both 0 where it does not. A sphere between joints has the place
 // of a joint of its digit that does not touch.
 #define CONTACT_STRIDE 6
-#define EFFORT_WORST 0              // the largest effort of the whole hand
+#define EFFORT_WORST 0              // the largest effort of the whole hand; with push.flag up to which tilt it holds, for each fill
 #define EFFORT_TIPS 1               // that of thumb and index tip alone
-#define EFFORT_SAFE 2               // up to which tilt the whole hand holds, for each fill
-#define EFFORT_PUSH 3               // of the kernel of reserves: the largest force beside the weight
-#define EFFORT_FRICTION 4           // .. the least friction with which all states are held
+#define EFFORT_PUSH 2               // of the kernel of reserves: the largest force beside the weight
+#define EFFORT_FRICTION 3           // .. the least friction with which all states are held
 #define DEVICE_PIVOTS 200           // of a solve
 #define SOLVE_REALS 42              // .. in the group's memory, an invocation, in the small build
 
@@ -356,11 +356,13 @@ struct Parameters {
       cavity_count, lattice_nx, lattice_ny, lattice_nz, fills, tilts, quadrature_count;
 };
 
-// Push constants: grips of this chunk, distance between planes; first state and states for dispatches that are split.
+// Push constants: grips of this chunk, distance between planes; first state and states for dispatches that are split; the bits of the
+// least score that is wanted; and a flag: whether efforts are for safe tilts, a score is its upper bound, or samples of a loop are late.
 #ifdef __cplusplus
 struct Push {
   std::uint32_t count, stride, first, number;
   std::uint32_t floor_low = 0, floor_high = 0;
+  std::uint32_t flag = 0;
 };
 #endif
 

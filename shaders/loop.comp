@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The rendered wall, one invocation a case: push.number samples on from where the last dispatch left it, or from the start (push.first).
 // A dispatch is short, since drivers end an invocation's loops after so many iterations; what moves is kept between dispatches.
-// push.floor_low: whether these samples are late ones, whose largest energy is the answer.
+// push.flag: whether these samples are late ones, whose largest energy is the answer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -35,7 +35,7 @@ void main() {
   }
   for (uint step = 0u; step < push.number; ++step) {
     state = step_loop(plant, by, wall, state, press, friction);
-    if (push.floor_low != 0u) {
+    if (push.flag != 0u) {
       Real energy = loop_energy(plant, wall, state.motion, press);
       if (is_no_number(energy) || energy > late) late = energy;
     }

@@ -71,8 +71,17 @@ layout(push_constant) uniform PushBlock {
   uint stride;  // distance between planes
   uint first;   // of a dispatch that is split
   uint number;
-  uint floor_low;   // of the selection
+  uint floor_low;  // see Push (layout.h)
   uint floor_high;
+  uint flag;
 } push;
+
+Real push_floor() {
+#if REAL_IS_DOUBLE
+  return packDouble2x32(uvec2(push.floor_low, push.floor_high));
+#else
+  return uintBitsToFloat(push.floor_low);
+#endif
+}
 
 #endif

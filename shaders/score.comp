@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scores of one grip an invocation, from the planes that the kernels before it wrote.
+// Scores of one grip an invocation, from the planes that the kernels before it wrote. With push.flag, before efforts are known: the score that
+// no effort exceeds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -31,7 +32,8 @@ void main() {
       terms[5] = hold_term(largest_hold, scene.grip_strength);
       // that of an implausible grip is 0
       if (PLANE_WORST_EFFORT >= 0) {
-        Real worst = real_out[uint(PLANE_WORST_EFFORT) * push.stride + grip];
+        bool is_judged = (status & STATUS_UNJUDGED) == 0u;
+        Real worst = push.flag != 0u || !is_judged ? Real(0) : real_out[uint(PLANE_WORST_EFFORT) * push.stride + grip];
         terms[5] = is_plausible(status) ? effort_term(worst) : Real(0);
         if (is_plausible(status) && !effort_holds(worst)) status |= STATUS_NOT_HELD;
         put_uint(PLANE_STATUS, grip, status);

@@ -26,11 +26,7 @@ void main() {
   uint from = push.first == SELECT_SECOND_TO_FIRST ? middle : 0u;
   uint to = push.first == SELECT_FIRST_TO_SECOND || push.first == SELECT_SCORES_TO_SECOND ? middle : 0u;
   // a score must pass push.floor_*, the worst of the best so far, to matter; -1 stands for none, as any grip's score is at least 0
-#if REAL_IS_DOUBLE
-  Real floor_score = packDouble2x32(uvec2(push.floor_low, push.floor_high));
-#else
-  Real floor_score = uintBitsToFloat(push.floor_low);
-#endif
+  Real floor_score = push_floor();
   // an ordered list where it is handed on; few entries ever enter it, so shifting it is cheaper than sorting with its neighbours
   uint list = to + block * push.number, last = list + push.number - 1u;
   for (uint i = list; i <= last; ++i) {

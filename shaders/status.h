@@ -25,7 +25,7 @@ STATUS_QUESTION is_plausible(STATUS_WORD status) {
 }
 
 // Whether the grip may be one of the best: plausible, and it holds as far as efforts are known.
-STATUS_QUESTION is_eligible(STATUS_WORD status) { return is_plausible(status) && (status & STATUS_NOT_HELD) == 0; }
+STATUS_QUESTION is_eligible(STATUS_WORD status) { return is_plausible(status) && (status & (STATUS_NOT_HELD | STATUS_UNJUDGED)) == 0; }
 
 #undef STATUS_QUESTION
 #undef STATUS_WORD

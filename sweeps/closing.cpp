@@ -19,6 +19,9 @@ namespace {
 
 constexpr double SURE_SHARE = 0.95;  // of the deviations of a grip, from which on its holding is sure
 
+// Less is not worth a word.
+bool is_compiling_long(const SweepTimes& times) { return times.compiling >= 1; }
+
 double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); }
 
 // Three digits, without an exponent where that is readable.
@@ -139,11 +142,14 @@ std::string closing_lines(const std::vector<std::string>& files, const SweepTime
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
   const double rate = static_cast<double>(times.written_bytes) / std::max(times.writing, 1e-9);
-  text += fmt::format("\n{} s: kernels {}, file writing {} ({} MB/s), everything else {}; CPU {} s; peak memory {}\n",
-                      fixed_text(times.wall, 2), fixed_text(times.kernels, 2), fixed_text(times.writing, 3),
-                      fixed_text(rate * 1e-6, 0), fixed_text(times.wall - times.kernels - times.writing, 2),
-                      fixed_text(seconds(usage.ru_utime) + seconds(usage.ru_stime), 2),
-                      readable_bytes(1024.0 * static_cast<double>(usage.ru_maxrss)));
+  const double compiling = is_compiling_long(times) ? times.compiling : 0;
+  text +=
+      fmt::format("\n{} s: {}kernels {}, file writing {} ({} MB/s), everything else {}; CPU {} s; peak memory {}\n",
+                  fixed_text(times.wall, 2), compiling > 0 ? fmt::format("compiling kernels {}, ", fixed_text(compiling, 2)) : "",
+                  fixed_text(times.kernels, 2), fixed_text(times.writing, 3), fixed_text(rate * 1e-6, 0),
+                  fixed_text(times.wall - compiling - times.kernels - times.writing, 2),
+                  fixed_text(seconds(usage.ru_utime) + seconds(usage.ru_stime), 2),
+                  readable_bytes(1024.0 * static_cast<double>(usage.ru_maxrss)));
   return text;
 }
 
@@ -151,8 +157,10 @@ std::string backend_line(const BackendInfo& info, const SweepTimes& times, const
   const std::string where = info.backend == "core" ? "the CPU core"
                             : info.is_cpu          ? fmt::format("Vulkan ({}, a CPU driver)", info.device)
                                                    : fmt::format("Vulkan ({})", info.device);
-  return fmt::format("computed on {}, {}, in {} s{}\n", where, info.precision == Precision::single ? "float" : "double",
-                     fixed_text(times.wall, 1), alternative);
+  return fmt::format("computed on {}, {}, in {} s{}{}\n", where, info.precision == Precision::single ? "float" : "double",
+                     fixed_text(times.wall, 1),
+                     is_compiling_long(times) ? fmt::format(", {} s of it to compile kernels", fixed_text(times.compiling, 1)) : "",
+                     alternative);
 }
 
 }  // namespace wholehand

@@ -16,8 +16,9 @@ namespace wholehand {
 // Where the time of a sweep went, s. What remains of the wall time is everything else.
 struct SweepTimes {
   double wall = 0;
-  double kernels = 0;  // that was waited for
-  double writing = 0;  // of values, syncing included
+  double compiling = 0;  // of kernels, before the first grip
+  double kernels = 0;    // that was waited for
+  double writing = 0;    // of values, syncing included
   std::uint64_t written_bytes = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sweeps/hand_lists.h"
 
+#include <algorithm>
+
 #include "shaders/status.h"
 
 namespace wholehand {
@@ -30,6 +32,8 @@ void HandLists::offer(const std::vector<Candidate>& candidates) {
 }
 
 bool HandLists::takes(const Candidate& candidate) const { return lists_[plan_.hand_scale_of(candidate.index)].takes(candidate); }
+
+double HandLists::least() const { return std::ranges::min_element(lists_, {}, &BestCandidates::least)->least(); }
 
 std::vector<Candidate> HandLists::all() const {
   std::vector<Candidate> all;

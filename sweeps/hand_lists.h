@@ -24,6 +24,8 @@ class HandLists {
   void offer(const std::vector<Candidate>& candidates);
   bool takes(const Candidate& candidate) const;  // whether it would get in
 
+  double least() const;  // the score below which none gets into any list
+
   std::vector<Candidate> sorted(std::size_t hand_scale) const { return lists_[hand_scale].sorted(); }  // the best first
   std::vector<Candidate> all() const;                                                                  // one list after the other
 

@@ -79,6 +79,7 @@ json to_json(const VesselProgress& vessel) {
           {"beyond_wrist", counts.beyond_wrist},
           {"only_deep", counts.only_deep},
           {"not_held", counts.not_held},
+          {"unjudged", counts.unjudged},
           {"at_gate", counts.at_gate},
           {"least_bad", {counts.least_bad.effort, counts.least_bad.friction, counts.least_bad.grip}},
           {"heat_map", vessel.heat_map},
@@ -108,6 +109,7 @@ VesselProgress vessel_from(const json& text) {
   counts.beyond_wrist = text.at("beyond_wrist");
   counts.only_deep = text.at("only_deep");
   counts.not_held = text.at("not_held");
+  counts.unjudged = text.at("unjudged");
   counts.at_gate = text.at("at_gate");
   counts.least_bad = least_bad_from(text.at("least_bad"));
   for (const json& cell : text.at("heat_map")) {
@@ -146,6 +148,7 @@ GripCounts& GripCounts::operator+=(const GripCounts& other) {
   beyond_wrist += other.beyond_wrist;
   only_deep += other.only_deep;
   not_held += other.not_held;
+  unjudged += other.unjudged;
   at_gate += other.at_gate;
   least_bad = std::min(least_bad, other.least_bad);
   return *this;
@@ -223,9 +226,9 @@ std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds
                                    {counts.beyond_wrist, "beyond the wrist"},
                                    {counts.only_deep, "only deep"}})
     if (part > counts.implausible) return fmt::format("{} implausible grips and {} {}", counts.implausible, part, what);
-  if (counts.implausible > counts.by_reason[0] || std::max(counts.not_held, counts.at_gate) > counts.plausible())
-    return fmt::format("{} feasible grips, {} implausible, {} not held and {} at the gate", counts.by_reason[0], counts.implausible,
-                       counts.not_held, counts.at_gate);
+  if (counts.implausible > counts.by_reason[0] || std::max(counts.not_held, counts.at_gate) + counts.unjudged > counts.plausible())
+    return fmt::format("{} feasible grips, {} implausible, {} not held, {} at the gate and {} not judged", counts.by_reason[0],
+                       counts.implausible, counts.not_held, counts.at_gate, counts.unjudged);
   if (counts.least_bad.is_known() && counts.least_bad.grip >= vessel.done)
     return fmt::format("grip {} is nearest to holding of {}", counts.least_bad.grip, vessel.done);
   if (vessel.best.size() > bounds.best) return fmt::format("{} best grips are kept of {}", vessel.best.size(), bounds.best);

@@ -42,6 +42,7 @@ struct GripCounts {
   std::uint64_t through_table = 0, self_overlap = 0, beyond_wrist = 0;
   std::uint64_t only_deep = 0;  // deep in the vessel, and none of the three
   std::uint64_t not_held = 0;   // of the plausible
+  std::uint64_t unjudged = 0;   // of the plausible: efforts that the lists do not need (RunRequest::least_score)
   std::uint64_t at_gate = 0;    // of the plausible: their worst effort is within the tolerances of `check` of 1 (core/tolerances.h)
   LeastBad least_bad;           // not known where worst efforts are not kept
 

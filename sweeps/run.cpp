@@ -30,7 +30,8 @@ ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   AutoBackend chosen(scene, own);
   const auto open = [&](const FieldSet& fields) {
     const Precision usual = own.on == "core" ? Precision::full : Precision::single;
-    return open_backend(scene, fields, own.on, own.precision.value_or(usual), own.threads);
+    return open_backend(scene, fields, own.on, own.precision.value_or(usual), own.threads,
+                        own.note ? host::CompileWatch() : show_compiling());
   };
   // by itself, so that a note comes before meshes that take long
   const auto device_bytes = [&] { return chosen.or_on_core([&] { return largest_buffer(own.on); }); };

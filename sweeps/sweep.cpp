@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <limits>
@@ -163,6 +164,8 @@ std::size_t Sweep::pool() const {
 std::size_t Sweep::candidates() const { return robust_candidates(scene_, best_wanted_); }
 std::size_t Sweep::kept_best() const { return is_choosy() ? pool() : candidates(); }
 ListRequest Sweep::list_request() const { return {candidates(), scene_.output.apart, pool(), options_.threads}; }
+// Lists of different grips reach far below the best ones, so that there all grips are judged (docs/results).
+bool Sweep::judges_few() const { return variables_.empty() && best_wanted_ > 0 && !is_choosy(); }
 bool Sweep::ranks_here() const { return best_wanted_ > 0 && (is_choosy() || plan().hand_scales() > 1); }
 // The fields that are read back. A device chooses a few of the best over all hands together; with several hand scales, and where grips
 // have to differ, the host chooses from the scores.
@@ -346,12 +349,17 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   request.last = plan().grips();
   HandLists best(plan(), kept_best(), vessel.best);
   request.best = ranks_here() ? 0 : candidates();
+  std::atomic<double> least_score{best.least()};
+  if (judges_few()) request.least_score = &least_score;
   std::vector<Candidate> eligible;
   request.sink = [&](const PlaneChunk& chunk) {
     const double start = monotonic_now();
     file.write(chunk);
     count_grips(chunk, backend_->fields(), gate(v), vessel.counts);
-    if (ranks_here()) best.offer(chunk, backend_->fields());
+    if (ranks_here()) {
+      best.offer(chunk, backend_->fields());
+      least_score = best.least();
+    }
     if (!remembered_.empty()) {
       eligible.clear();
       add_eligible(chunk, backend_->fields(), eligible);
@@ -628,7 +636,8 @@ void Sweep::finish(ResultFile& file, BestLists best) {
                                            : best_lines(scene_, plan(), v, counts, best, failures, names_.best, view)));
   }
   // kernels that ran while the file was being written cost no time of their own
-  const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};
+  const SweepTimes times{since(options_.started), info_.compile_seconds, std::min(wait_seconds_, kernel_seconds_), file.seconds(),
+                         file.bytes()};
   print_text("\n" + closing_lines(files, times));
   if (!options_.alternative.empty()) print_text(backend_line(info_, times, options_.alternative));
 }

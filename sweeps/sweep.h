@@ -87,6 +87,7 @@ class Sweep {
   std::size_t candidates() const;               // grips of a list of which the best are chosen in the end
   std::size_t pool() const;                     // grips of a list that one pass keeps
   std::size_t kept_best() const;                // grips of a list that are kept until all grips are there
+  bool judges_few() const;                      // whether efforts are computed only of grips that may still be listed
   bool ranks_here() const;                      // whether the best are found from scores that are read back, and not by the backend
   bool has_field(int field) const;              // whether it is read back
   bool has_heat_map() const;                    // whether scores and status are read back, and the score is wanted

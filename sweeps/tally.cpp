@@ -32,7 +32,9 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, double gate, G
       counts.only_deep += (status & (STATUS_THROUGH_TABLE | STATUS_SELF_OVERLAP | STATUS_BEYOND_WRIST)) == 0;
     }
     counts.not_held += (status & STATUS_NOT_HELD) != 0;
-    if (is_plausible(status) && is_kept(fields, FIELD_WORST_EFFORT)) {
+    const bool is_unjudged = (status & STATUS_UNJUDGED) != 0;
+    counts.unjudged += is_unjudged;
+    if (is_plausible(status) && !is_unjudged && is_kept(fields, FIELD_WORST_EFFORT)) {
       const LeastBad one{known(FIELD_WORST_EFFORT, i), known(FIELD_FRICTION_NEEDED, i), chunk.first + i};
       counts.least_bad = std::min(counts.least_bad, one);
       counts.at_gate += is_at_gate(one.effort, gate);
@@ -43,6 +45,8 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, double gate, G
 }
 
 namespace {
+
+constexpr const char* UNJUDGED = "not judged (out of reach of the list)";
 
 // Parts of a line that count something, with commas between.
 class Counted {
@@ -84,6 +88,7 @@ std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint6
   line += fmt::format("; of these {} implausible{}", readable_number(counts.implausible),
                       parts.text().empty() ? "" : " (" + parts.text() + ")");
   if (counts.not_held > 0) line += fmt::format(", {} not held", readable_number(counts.not_held));
+  if (counts.unjudged > 0) line += fmt::format(", {} {}", readable_number(counts.unjudged), UNJUDGED);
   line += fmt::format(", {} antipodal", readable_number(counts.antipodal));
   if (counts.blocked > 0) line += fmt::format(", {} with a blocked finger", readable_number(counts.blocked));
   return line;
@@ -93,13 +98,16 @@ std::string short_counts_line(const GripCounts& counts, bool reasons_known, std:
   if (!reasons_known) return all_grips(counts, azimuths);
   Counted parts;
   parts.add(counts.not_held, "not held");
+  parts.add(counts.unjudged, UNJUDGED);
   parts.add(counts.through_table, "through the table");
   parts.add(counts.self_overlap, "with fingers in each other");
   parts.add(counts.beyond_wrist, "beyond the wrist");
   parts.add(counts.only_deep, "too deep");
   add_reasons(counts, parts);
-  return fmt::format("{} of {} {}{}{}", readable_number(counts.plausible() - counts.not_held), all_grips(counts, azimuths),
-                     judges_holding ? "hold" : "are plausible", parts.text().empty() ? "" : "; ", parts.text());
+  return fmt::format("{} of {} {}{}{}", readable_number(counts.plausible() - counts.not_held - counts.unjudged),
+                     all_grips(counts, azimuths),
+                     judges_holding ? counts.unjudged > 0 ? "are judged and hold" : "hold" : "are plausible",
+                     parts.text().empty() ? "" : "; ", parts.text());
 }
 
 }  // namespace wholehand

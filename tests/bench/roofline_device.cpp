@@ -123,7 +123,7 @@ class DeviceRun {
     commands.bind(BINDING_REAL_OUT, reals_);
     commands.bind(BINDING_UINT_OUT, uints_);
     commands.bind(BINDING_LANES, lanes_);
-    program_->record(vessel, chunk_, 0, 0, commands);
+    program_->record(vessel, chunk_, 0, NO_LEAST_SCORE, NO_LEAST_SCORE, commands);
     return commands;
   }
 

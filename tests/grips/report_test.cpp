@@ -45,7 +45,8 @@ class ToldEvaluator final : public Evaluator {
     return state;
   }
   GripScore score(std::size_t, const GripInput&, const GripResult&) const override { return given_score; }
-  void planes(std::size_t, const GripInput*, std::size_t, const FieldSet&, std::size_t, double*, std::uint32_t*) const override {}
+  void planes(std::size_t, const GripInput*, std::size_t, const FieldSet&, std::size_t, double*, std::uint32_t*,
+              double) const override {}
   double distance(std::size_t, const Triple&) const override { return 0; }
   Triple gradient(std::size_t, const Triple&) const override { return {}; }
   VesselConstants constants(std::size_t) const override { return {}; }

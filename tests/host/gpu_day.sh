@@ -82,7 +82,7 @@ step() {
   took=$((($(date +%s%N) - begin) / 1000000))
   [ $code = 0 ] || failed=1
   seconds=$((took / 1000)).$((took % 1000 / 100))
-  [ $code != 124 ] || seconds+=", stopped"
+  [[ $code != 124 && $code != 137 ]] || seconds+=", stopped"
   row "$name | \`${*//$out/OUT}\` | $code | $seconds"
 }
 
@@ -106,7 +106,7 @@ sweep_steps() {
     fi
     printf '%s\n' "${scene%%\[grips\]*}" '[grips]' "height_fraction = { from = 0.1, to = 0.95, count = $heights }" \
       "obliquity_deg = { from = -20, to = 20, count = $obliquities }" "roll_deg = { from = -90, to = 30, count = $rolls }" \
-      '[tilts]' 'deg = { from = 0, to = 150, count = 31 }' '[output]' 'keep = []' >"$work/scratch/sweep-1e$power.toml"
+      '[tilts]' 'deg = { from = 0, to = 150, count = 31 }' '[output]' 'keep = []' 'apart_mm = 0' >"$work/scratch/sweep-1e$power.toml"
     step "sweep-1e$power" 90 wholehand sweep "sweep-1e$power.toml" --on vulkan
     expected=$((took / 100)) power=$((power + 1))  # s of ten times the grips
   done <<<$'128 13 20\n256 26 50\n512 65 100\n1024 130 250'

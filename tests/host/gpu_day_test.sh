@@ -33,4 +33,6 @@ echo "packed: $mib MiB"
   exec chroot "$root" /bin/env -i PATH=/bin /bin/bash /packed/gpu_day.sh run "$@" /out' - "$root" "${@:2}" ||
   { tail -n 5 "$root"/out/*.txt; exit 1; }
 for file in summary.md devices.txt clocks.csv; do [ -s "$root/out/$file" ]; done
+! grep 'is not packed' "$root/out/summary.md"
+grep -q 'PASSED  . [1-9]' "$root/out/parity.txt" && grep -q 'PASSED  . [1-9]' "$root/out/extremes.txt"
 grep -q llvmpipe "$root/out/devices.txt"

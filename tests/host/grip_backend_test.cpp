@@ -200,7 +200,7 @@ TEST(GripBackend, SaysWhatItMadeAndWhatAGripTakes) {
   const Scene scene = wet({beaker1()}), dry = scene_of({beaker1()});
   const auto with = backend_of(scene, make_field_set(FEW, scene));
   EXPECT_TRUE(with->pipelines(0).force && with->pipelines(0).liquid);
-  EXPECT_GT(with->setup_seconds(), 0);
+  EXPECT_GT(with->info().compile_seconds, 0);
   const FieldSet scored = make_field_set({FIELD_SCORE}, dry);
   const auto without = backend_of(dry, scored);
   EXPECT_FALSE(without->pipelines(0).force || without->pipelines(0).liquid);

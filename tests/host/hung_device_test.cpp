@@ -9,7 +9,10 @@
 #include <cstdint>
 #include <thread>
 
+#include "host/compile.h"
 #include "host/run_once.h"
+#include "host/shaders.h"
+#include "shaders/layout.h"
 #include "tests/support/vulkan_kernels.h"
 
 namespace wholehand::host {
@@ -43,6 +46,25 @@ TEST(HungDevice, IsLeftBehind) {
   EXPECT_LT(*counter, INVOCATIONS * DISPATCHES) << "its end was waited for";
   for (int i = 0; i < 6000 && *counter < INVOCATIONS * DISPATCHES; i++) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(*counter, INVOCATIONS * DISPATCHES) << "it went on after its buffer was freed";
+}
+
+// A driver that completes no kernel in time keeps its device and its threads; another device works meanwhile.
+TEST(HungDevice, ThatCompilesForTooLongIsLeftBehind) {
+  // the longest there is: seconds of work, and what is left at the end is done before the last line
+  const KernelRequest request{"effort", find_shader("effort", Precision::single), {{CONST_GROUP_SIZE, std::uint32_t(GROUP_SIZE)}}};
+  DeviceOptions options;
+  options.wait_seconds = 0;
+  try {
+    Device device("vulkan", options);
+    compile(device, options, std::vector<KernelRequest>(16, request));
+    ADD_FAILURE() << "it finished in time";
+  } catch (const DeviceLost& error) {
+    EXPECT_TRUE(error.hung);
+    EXPECT_NE(std::string(error.what()).find("of 16 kernels, and no further one within 0 s"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(has_abandoned_devices());
+  Device another;
+  EXPECT_EQ(compile(another, {}, {request}).size(), 1u);
 }
 
 }  // namespace

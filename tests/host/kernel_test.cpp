@@ -161,7 +161,7 @@ TEST_F(HostKernel, BufferBeyondTheDevicesRangeIsAnError) {
   EXPECT_THROW(commands.dispatch(kernel, {1, 1, 1}), Error);
 }
 
-// Of the probes, the kernel of the same name loses nothing between a product and its sum.
+// The probe of the same name rounds nothing between a product and its sum.
 TEST_F(HostKernel, TellsADriverThatContractsFromOneThatRounds) {
   EXPECT_TRUE(contracted_precisions(device).empty());
   EXPECT_EQ(contracted_precisions(device, probe_shaders()), (std::vector{Precision::single, Precision::full}));

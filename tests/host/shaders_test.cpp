@@ -94,7 +94,7 @@ TEST(Shaders, DamagedWordsAreNotValid) {
 // As kernels give them to a driver: constants of a scene in them, and without what these switch off.
 TEST(Shaders, SpecializedOnesAreValid) {
   host::SpecializationBits all{{CONST_GROUP_SIZE, 64}, {CONST_TABLE, 1},    {CONST_BETWEEN, 2},
-                               {CONST_ARM, 24},        {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_SAFE}};
+                               {CONST_ARM, 24},        {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_WORST}};
   for (std::uint32_t f = 0; f < FIELDS; ++f) all[CONST_PLANE + f] = f;
   const host::SpecializationBits few{{CONST_OUTLINE_COUNT, 3}, {CONST_SDF_KIND, SDF_OUTLINE}, {CONST_PLANE + FIELD_SCORE, 0}};
   for (const EmbeddedShader& shader : embedded_shaders()) {

@@ -112,7 +112,7 @@ std::map<std::string, std::int64_t> turns_of(const Scene& scene, const FieldSet&
   commands.bind(BINDING_CANDIDATES, scores);
   commands.bind(BINDING_INDICES, indices);
   meter.bind(commands);
-  program.record(0, chunk, SELECT_LARGEST, -1, commands);
+  program.record(0, chunk, SELECT_LARGEST, NO_LEAST_SCORE, NO_LEAST_SCORE, commands);
   std::map<std::string, std::int64_t> most;
   for (std::size_t step = 0; step < commands.steps().size(); ++step) {
     std::int64_t& turns = most[commands.steps()[step].kernel->name()];
@@ -389,7 +389,7 @@ TEST(Turns, LiquidsEndWithinTheirBounds) {
   }
 }
 
-// More states of the liquid than a submit takes: the piece after the first goes on where that ends.
+// More states of the liquid than a dispatch takes: the piece after the first goes on where that ends.
 TEST(Turns, ManyStatesOfALiquidAreSeveralDispatches) {
   const Scene wet = flask_of_many_states();
   const auto core = make_core_evaluator(wet);
@@ -437,7 +437,7 @@ TEST(Turns, WallsEndWithinTheirBounds) {
     commands.bind(BINDING_GRIPS, given);
     commands.bind(BINDING_REAL_OUT, state);
     const auto samples = static_cast<std::uint32_t>(host::most_samples(has_friction, 16));
-    commands.dispatch(kernel, host::groups_for(on, kernel, GROUP_SIZE), Push{GROUP_SIZE, GROUP_SIZE, 1, samples, 1, 0});
+    commands.dispatch(kernel, host::groups_for(on, kernel, GROUP_SIZE), Push{GROUP_SIZE, GROUP_SIZE, 1, samples, 0, 0, 1});
     const std::int64_t turns = meter.turns(commands);
     expect_worst(meter.counts(), turns, has_friction ? 10 * host::PROPAGATOR_TURNS : samples, "loop");
   }

@@ -123,8 +123,8 @@ class SharedEvaluator final : public Evaluator {
     return all_->score(vessel, grip, result);
   }
   void planes(std::size_t vessel, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride,
-              double* reals, std::uint32_t* uints) const override {
-    all_->planes(vessel, grips, count, fields, stride, reals, uints);
+              double* reals, std::uint32_t* uints, double least_score) const override {
+    all_->planes(vessel, grips, count, fields, stride, reals, uints, least_score);
   }
   double distance(std::size_t vessel, const Triple& point) const override { return all_->distance(vessel, point); }
   Triple gradient(std::size_t vessel, const Triple& point) const override { return all_->gradient(vessel, point); }

@@ -162,9 +162,10 @@ Offsets parameter_offsets() {
   return offsets;
 }
 
-const Offsets PUSH_OFFSETS = {{"count", offsetof(Push, count)},         {"stride", offsetof(Push, stride)},
-                              {"first", offsetof(Push, first)},         {"number", offsetof(Push, number)},
-                              {"floor_low", offsetof(Push, floor_low)}, {"floor_high", offsetof(Push, floor_high)}};
+const Offsets PUSH_OFFSETS = {
+    {"count", offsetof(Push, count)},   {"stride", offsetof(Push, stride)},       {"first", offsetof(Push, first)},
+    {"number", offsetof(Push, number)}, {"floor_low", offsetof(Push, floor_low)}, {"floor_high", offsetof(Push, floor_high)},
+    {"flag", offsetof(Push, flag)}};
 
 // Member offsets of the struct of a module that has a member of this name; empty: none has.
 Offsets offsets_in(std::span<const std::uint32_t> words, const std::string& member) {

@@ -98,7 +98,7 @@ LiquidResult FakeEvaluator::liquid(std::size_t vessel, double fill, double tilt)
 double FakeEvaluator::pouring_tilt(std::size_t, double fill) const { return fill > 0 ? 1 - fill / 2 : NOT_A_NUMBER; }
 
 void FakeEvaluator::planes(std::size_t vessel, const GripInput* grips, std::size_t count, const FieldSet& fields,
-                           std::size_t stride, double* reals, std::uint32_t* uints) const {
+                           std::size_t stride, double* reals, std::uint32_t* uints, double) const {
   if (before_chunk) before_chunk();
   for (int field = 0; field < FIELDS; ++field) {
     if (!fields.has(field)) continue;
@@ -136,7 +136,7 @@ RunResult FakeBackend::run(const RunRequest& request) {
     if (before_chunk) before_chunk();
     const std::size_t count = std::min<std::uint64_t>(chunk_, request.last - first);
     request.grips(request.vessel, first, count, grips.data());
-    evaluator_.planes(request.vessel, grips.data(), count, fields_, stride, reals.data(), uints.data());
+    evaluator_.planes(request.vessel, grips.data(), count, fields_, stride, reals.data(), uints.data(), NO_LEAST_SCORE);
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t status = fake_uint(request.vessel, grips[i], FIELD_STATUS);
       const bool eligible = (status & STATUS_REASON_MASK) == REASON_NONE && (status & STATUS_PLAUSIBLE) != 0;

@@ -34,7 +34,7 @@ class FakeEvaluator : public Evaluator {
   }
   GripScore score(std::size_t, const GripInput&, const GripResult&) const override { return {}; }
   void planes(std::size_t vessel, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride,
-              double* reals, std::uint32_t* uints) const override;
+              double* reals, std::uint32_t* uints, double least_score) const override;
   double distance(std::size_t, const Triple&) const override { return 0; }
   Triple gradient(std::size_t, const Triple&) const override { return {}; }
   VesselConstants constants(std::size_t vessel) const override {

@@ -48,7 +48,7 @@ HandData odd_hand();    // every number another than the paper's, no two fingers
 constexpr double G = 9.80665;  // m/s2, what a scene has where it says nothing else
 std::vector<double> linspace(double from, double to, int count);
 Axis axis_of(double from, double to, int count);
-Scene three_beakers();  // the default scene
+Scene three_beakers();  // the default scene with a quarter of its grips, and without hand, table, arm, strengths and deviations
 // A scene with these vessels and hand (the paper's, for which many tests know numbers), the default in everything else: no liquid, no tilts; the hand is its 24 points
 // alone, without spheres between them.
 Scene scene_of(std::vector<VesselData> vessels, Pose pose = Pose::articulated, const HandData& hand = paper_hand());

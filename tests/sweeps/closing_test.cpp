@@ -19,6 +19,8 @@ TEST(Closing, OpeningSaysWhatIsEvaluatedAndWhere) {
             "fake: 560 grips of 2 vessels, 8 states each\n"
             "on llvmpipe, a CPU driver (Mesa), single precision\n"
             "one azimuth stands for all 3: the vessels are bodies of revolution\n");
+  EXPECT_EQ(backend_line(info, {4.25, 3, 1, 0, 0}, "; the core would"),
+            "computed on Vulkan (llvmpipe, a CPU driver), float, in 4.2 s, 3.0 s of it to compile kernels; the core would\n");
   info.is_cpu = false;
   info.precision = Precision::full;
   scene.tilts.clear();
@@ -121,23 +123,29 @@ TEST(Closing, AListCountsRanksThatAreNearToTheNextOne) {
 }
 
 TEST(Closing, TimesAddUp) {
-  const std::string text = closing_lines({"missing.nc", "missing.best.csv"}, {2.0, 1.25, 0.25, 50000000});
+  const std::string text = closing_lines({"missing.nc", "missing.best.csv"}, {2.0, 0.5, 1.25, 0.25, 50000000});
   EXPECT_EQ(text.substr(0, text.find("; CPU")),
             "wrote missing.nc (0 B), missing.best.csv\n"
             "2.00 s: kernels 1.25, file writing 0.250 (200 MB/s), everything else 0.50");
   EXPECT_NE(text.find("; peak memory "), std::string::npos);
+  const std::string cold = closing_lines({"missing.nc"}, {4.0, 2.25, 1.0, 0.25, 50000000});
+  EXPECT_EQ(cold.substr(0, cold.find("; CPU")),
+            "wrote missing.nc (0 B)\n"
+            "4.00 s: compiling kernels 2.25, kernels 1.00, file writing 0.250 (200 MB/s), everything else 0.50");
 }
 
 TEST(Closing, TheLastLineSaysWhatComputed) {
   BackendInfo info;
   info.backend = "core";
   info.device = "core, 2 threads";
-  EXPECT_EQ(backend_line(info, {1.44, 1, 0, 0}, "; a device would not"),
+  EXPECT_EQ(backend_line(info, {1.44, 0, 1, 0, 0}, "; a device would not"),
             "computed on the CPU core, double, in 1.4 s; a device would not\n");
   info = {"vulkan", "llvmpipe", "Mesa", Precision::single, true};
-  EXPECT_EQ(backend_line(info, {1.25, 1, 0, 0}, ""), "computed on Vulkan (llvmpipe, a CPU driver), float, in 1.2 s\n");
+  EXPECT_EQ(backend_line(info, {1.25, 0.9, 1, 0, 0}, ""), "computed on Vulkan (llvmpipe, a CPU driver), float, in 1.2 s\n");
+  EXPECT_EQ(backend_line(info, {4.25, 3, 1, 0, 0}, "; the core would"),
+            "computed on Vulkan (llvmpipe, a CPU driver), float, in 4.2 s, 3.0 s of it to compile kernels; the core would\n");
   info.is_cpu = false;
-  EXPECT_EQ(backend_line(info, {1.25, 1, 0, 0}, ""), "computed on Vulkan (llvmpipe), float, in 1.2 s\n");
+  EXPECT_EQ(backend_line(info, {1.25, 0.9, 1, 0, 0}, ""), "computed on Vulkan (llvmpipe), float, in 1.2 s\n");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ SweepMark some_mark() {
   vessel.done = (std::uint64_t{1} << 40) + 1;
   vessel.best = {{0.1 + 0.2, 7}, {1e-17, ~std::uint64_t{0}}};
   vessel.stretches = {{0, 5, "ab"}, {5, vessel.done, "cd"}};
-  vessel.counts = {11, {1, 2, 3, 4, 5, 6, 7}, 8, 9, 10, 11, 12, 15, 13, 14, 16, {INFINITY, 1.0 / 11, 15}};
+  vessel.counts = {11, {1, 2, 3, 4, 5, 6, 7}, 8, 9, 10, 11, 12, 15, 13, 14, 17, 16, {INFINITY, 1.0 / 11, 15}};
   vessel.heat_map = {1.0 / 7, NAN, 0};
   vessel.lists = {{{{1.0 / 9, 3}, {0.1, 4}}, Candidate{0.1, 9}, false}, {{}, {}, true}};
   mark.in_place = {{100, 20}, {std::uint64_t{1} << 50, 8}};
@@ -74,6 +74,7 @@ TEST(Mark, ComesBackBitForBit) {
   EXPECT_EQ(a.counts.self_overlap, 12u);
   EXPECT_EQ(a.counts.only_deep, 13u);
   EXPECT_EQ(a.counts.not_held, 14u);
+  EXPECT_EQ(a.counts.unjudged, 17u);
   EXPECT_EQ(a.counts.beyond_wrist, 15u);
   EXPECT_EQ(a.counts.at_gate, 16u);
   EXPECT_TRUE(a.counts.least_bad == b.counts.least_bad);
@@ -197,11 +198,12 @@ TEST(Mark, WhatNoSweepCanHaveDoneIsRefused) {
   });
   refused("0 implausible grips and 1 beyond the wrist", [](SweepMark& m) { m.vessels[0].counts.beyond_wrist = 1; });
   refused("0 implausible grips and 1 only deep", [](SweepMark& m) { m.vessels[0].counts.only_deep = 1; });
-  refused("4 feasible grips, 3 implausible, 2 not held and 0 at the gate", [](SweepMark& m) {
+  refused("4 feasible grips, 3 implausible, 2 not held, 0 at the gate and 0 not judged", [](SweepMark& m) {
     m.vessels[0].counts.implausible = 3;
     m.vessels[0].counts.not_held = 2;
   });
-  refused("4 feasible grips, 0 implausible, 0 not held and 5 at the gate", [](SweepMark& m) { m.vessels[0].counts.at_gate = 5; });
+  refused("4 feasible grips, 0 implausible, 0 not held, 5 at the gate and 0 not judged",
+          [](SweepMark& m) { m.vessels[0].counts.at_gate = 5; });
   refused("grip 10 is nearest to holding of 10", [](SweepMark& m) { m.vessels[0].counts.least_bad = {2, 1, 10}; });
   refused("2 best grips are kept of 1", [](SweepMark& m) { m.vessels[0].best.push_back({0.4, 1}); });
   refused("grip 10 is one of the best of 10", [](SweepMark& m) { m.vessels[0].best[0].index = 10; });

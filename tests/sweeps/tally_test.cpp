@@ -33,6 +33,15 @@ TEST(Tally, CountsByReasonAndAmongTheFeasible) {
   EXPECT_EQ(short_counts_line(counts, true, 1, false), "2 of 6 grips are plausible; 1 too deep, 2 misses, 1 too wide");
   EXPECT_EQ(short_counts_line(counts, true, 12, true), "2 of 6 grips (each at 12 azimuths) hold; 1 too deep, 2 misses, 1 too wide");
   EXPECT_EQ(short_counts_line(counts, false, 1, true), "6 grips");
+  const std::vector<std::uint32_t> unjudged{STATUS_PLAUSIBLE, STATUS_PLAUSIBLE | STATUS_UNJUDGED,
+                                            STATUS_PLAUSIBLE | STATUS_NOT_HELD};
+  GripCounts few;
+  count_grips({0, 0, 3, 3, nullptr, nullptr, unjudged.data()}, fields, 0, few);
+  EXPECT_EQ(few.unjudged, 1u);
+  EXPECT_EQ(short_counts_line(few, true, 1, true),
+            "1 of 3 grips are judged and hold; 1 not held, 1 not judged (out of reach of the list)");
+  EXPECT_EQ(counts_line(few, true, 1),
+            "3 of 3 grips feasible; of these 0 implausible, 1 not held, 1 not judged (out of reach of the list), 0 antipodal");
 }
 
 // Depth is counted where none of the three others makes a grip implausible; a grip of several counts for each.
