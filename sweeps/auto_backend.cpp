@@ -44,14 +44,14 @@ bool origin_of(const OutputNames& names, std::string& on, Precision& precision) 
   return false;
 }
 
-// Fitted to sweeps of 27,648 to 313,344 grips with 10 to 155 states (docs/results, "Core or device").
+// Fitted to sweeps of 27,648 to 195,840 grips (docs/results, "Core or device").
 struct Cost {
   double start;    // s: opening, lists, charts, the end of the file
   double grip;     // s of one thread: closed, at rest, examined, written
   double effort;   // the same, of the worst effort without states
   double reserve;  // and of the three that are kept on request
 };
-constexpr Cost CORE{0.3, 22e-6, 18e-6, 67e-6}, CPU_DRIVER{0.9, 4.7e-6, 11e-6, 32e-6};
+constexpr Cost CORE{0.25, 30e-6, 18.5e-6, 87e-6}, CPU_DRIVER{0.45, 13.5e-6, 14.5e-6, 47e-6};
 constexpr double EFFORT_STATES = 100, RESERVE_STATES = 300;  // states at which the cost of efforts and of reserves doubles
 constexpr double ROBUST = 1;                                 // s of one thread, for the deviations of the lists
 constexpr double DOUBLE = 1.8;                               // cost of a grip in double over float, on a CPU driver

@@ -58,7 +58,7 @@ TEST(CommandLine, SaysWhenItCannotWrite) {
   // whose output comes while it works
   const wholehand::TemporaryFolder folder;
   const std::string result = folder / "a.nc";
-  for (const std::string& arguments : {"sweep three_beakers --on core -o " + result, std::string("check small")}) {
+  for (const std::string& arguments : {"sweep small --on core -o " + result, std::string("check small")}) {
     const Outcome full = run("PROGRAM " + arguments + " 2>&1 >/dev/full");
     EXPECT_EQ(full.code, 3) << arguments;
     // after lines of progress, where the machine is slow

@@ -13,6 +13,7 @@
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "tests/bench/bench.h"
+#include "tests/support/scenes.h"
 
 namespace wholehand::bench {
 
@@ -26,6 +27,8 @@ Scene whole_scene(int heights) {
   const double low = values.front(), high = values.back();
   values.clear();
   for (int k = 0; k < heights; ++k) values.push_back(low + (high - low) * k / (heights - 1));
+  scene.grips.obliquity = three_beakers().grips.obliquity;
+  scene.grips.roll = three_beakers().grips.roll;
   return scene;
 }
 

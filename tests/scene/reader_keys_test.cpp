@@ -118,7 +118,7 @@ TEST(SceneReader, ReadsTheShippedScenes) {
   EXPECT_EQ(beakers.pose, Pose::articulated);
   EXPECT_EQ(beakers.grips.height.values.size() * beakers.grips.azimuth.values.size() * beakers.grips.obliquity.values.size() *
                 beakers.grips.roll.values.size() * beakers.grips.offset.values.size() * beakers.grips.hand_scale.values.size(),
-            9216u);
+            34816u);
   EXPECT_EQ(beakers.grips.height.values.front(), 0.10);
   EXPECT_EQ(beakers.grips.height.values.back(), 0.95);
   EXPECT_EQ(beakers.liquid->fills, (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));

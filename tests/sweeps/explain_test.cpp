@@ -68,6 +68,7 @@ Scene three_beakers() {
   Scene scene = read_scene_file(find_scene("three_beakers"));
   scene.strength.reset();
   scene.grips.height.values = {0.03, 0.05, 0.07};
+  scene.grips.obliquity.values = {radians(-20), 0, radians(20)};
   return scene;
 }
 
