@@ -53,12 +53,13 @@ struct DeviceState;
 
 // An allocation, which small buffers share. The last of them frees it.
 struct MemoryBlock {
+  explicit MemoryBlock(DeviceState& on) : device(on) {}
+  ~MemoryBlock();
+
   DeviceState& device;
   vk::raii::DeviceMemory memory = nullptr;
   std::byte* mapped = nullptr;  // where the host sees it
   vk::DeviceSize size = 0, used = 0;
-
-  ~MemoryBlock();
 };
 
 // What a Device holds.
