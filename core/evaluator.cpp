@@ -259,8 +259,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
       }
       const std::optional<Real> effort = put_efforts(row, entries_[v], answer, fill_efforts);
       LargestForces largest = put_states(row, entries_[v], answer, effort ? fill_efforts.data() : nullptr);
-      if (has_effort_)
-        largest.effort = effort.value_or((answer.status & STATUS_UNJUDGED) != 0 ? Real(0) : std::numeric_limits<Real>::infinity());
+      if (has_effort_) largest.effort = effort.value_or(std::numeric_limits<Real>::infinity());
       put_score(row, entries_[v], answer, largest);
     }
   }
@@ -406,7 +405,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   // The efforts of a plausible grip: the worst one, and `fills`. Nothing for any other grip, or in a scene without efforts.
   std::optional<Real> put_efforts(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
                                   std::span<FillEffort> fills) const {
-    if (!has_effort_ || !wholehand::is_plausible(answer.status) || (answer.status & STATUS_UNJUDGED) != 0) return std::nullopt;
+    if (!has_effort_ || !wholehand::is_judged(answer.status)) return std::nullopt;
     const HeldHand hand = held_hand(entry, answer.posed, answer.touch_mask, answer.closing.gap);
     const bool of_tips = row.fields.has(FIELD_TIPS_WORST_EFFORT) || row.fields.has(FIELD_LARGEST_HOLD);
     const GripLoads loads = states_.loads(entry, {answer.closing.direction, answer.closing.midpoint, is_antipodal(answer)});
@@ -494,15 +493,14 @@ class CoreEvaluator final : public wholehand::Evaluator {
   void put_score(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer, const LargestForces& largest) const {
     const auto terms = score_terms(entry, answer, largest);
     for (int k = 0; k < 6; ++k) row.put(FIELD_TERMS, k, terms[k]);
-    const std::uint32_t status =
-        answer.status | (is_not_held(wholehand::is_plausible(answer.status), largest) ? STATUS_NOT_HELD : 0u);
+    const std::uint32_t status = answer.status | (is_not_held(wholehand::is_judged(answer.status), largest) ? STATUS_NOT_HELD : 0u);
     row.put_mask(FIELD_STATUS, status);
     row.put(FIELD_SCORE, 0, wholehand::is_eligible(status) ? states_.weighted(terms) : Real(0));
   }
 
-  // False in a scene without efforts and for an implausible grip: nobody knows there.
-  static bool is_not_held(bool is_plausible, const LargestForces& largest) {
-    return is_plausible && largest.effort && !effort_holds(*largest.effort);
+  // False in a scene without efforts and for a grip that is not judged: nobody knows there.
+  static bool is_not_held(bool is_judged, const LargestForces& largest) {
+    return is_judged && largest.effort && !effort_holds(*largest.effort);
   }
 
   // How a grip of this result holds its vessel, in the world of the right hand.

@@ -36,7 +36,7 @@ bool is_busy(uint grip) {
     status |= STATUS_UNJUDGED;
     put_uint(PLANE_STATUS, grip, status);
   }
-  if (is_plausible(status) && (status & STATUS_UNJUDGED) == 0u) return !is_safe || kept(PLANE_WORST_EFFORT, 0, grip) > JUST_HELD;
+  if (is_judged(status)) return !is_safe || kept(PLANE_WORST_EFFORT, 0, grip) > JUST_HELD;
   if (is_safe) {
     for (uint fill = 0u; fill < scene.fills; ++fill) put_real(PLANE_SAFE_TILT, int(fill), grip, NOT_A_NUMBER);
   } else {

@@ -74,7 +74,7 @@ int plane_of_task() { return TASK == EFFORT_PUSH ? PLANE_PUSH : PLANE_FRICTION_N
 
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  if (is_plausible(status) && (status & STATUS_UNJUDGED) == 0u)
+  if (is_judged(status))
     return TASK == EFFORT_PUSH || push.first == 0u || kept(plane_of_task(), 0, grip) < NO_DISTANCE;
   put_real(plane_of_task(), 0, grip, NOT_A_NUMBER);
   return false;

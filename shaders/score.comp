@@ -32,10 +32,9 @@ void main() {
       terms[5] = hold_term(largest_hold, scene.grip_strength);
       // that of an implausible grip is 0
       if (PLANE_WORST_EFFORT >= 0) {
-        bool is_judged = (status & STATUS_UNJUDGED) == 0u;
-        Real worst = push.flag != 0u || !is_judged ? Real(0) : real_out[uint(PLANE_WORST_EFFORT) * push.stride + grip];
-        terms[5] = is_plausible(status) ? effort_term(worst) : Real(0);
-        if (is_plausible(status) && !effort_holds(worst)) status |= STATUS_NOT_HELD;
+        Real worst = push.flag != 0u ? Real(0) : real_out[uint(PLANE_WORST_EFFORT) * push.stride + grip];
+        terms[5] = is_judged(status) ? effort_term(worst) : Real(0);
+        if (is_judged(status) && !effort_holds(worst)) status |= STATUS_NOT_HELD;
         put_uint(PLANE_STATUS, grip, status);
       }
     }

@@ -19,13 +19,16 @@ namespace wholehand {
 // Whether the hand closes on the vessel: what else there is of a grip exists for these alone.
 STATUS_QUESTION is_feasible(STATUS_WORD status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
 
-// Feasible, nowhere too deep, above the table and within reach of the wrist: efforts are computed of these grips.
+// Feasible, nowhere too deep, above the table and within reach of the wrist.
 STATUS_QUESTION is_plausible(STATUS_WORD status) {
   return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) == STATUS_PLAUSIBLE;
 }
 
-// Whether the grip may be one of the best: plausible, and it holds as far as efforts are known.
-STATUS_QUESTION is_eligible(STATUS_WORD status) { return is_plausible(status) && (status & (STATUS_NOT_HELD | STATUS_UNJUDGED)) == 0; }
+// Whether efforts are computed of a grip: it is plausible, and may reach the least score that is wanted.
+STATUS_QUESTION is_judged(STATUS_WORD status) { return is_plausible(status) && (status & STATUS_UNJUDGED) == 0; }
+
+// Whether the grip may be one of the best: judged, and it holds as far as efforts are known.
+STATUS_QUESTION is_eligible(STATUS_WORD status) { return is_judged(status) && (status & STATUS_NOT_HELD) == 0; }
 
 #undef STATUS_QUESTION
 #undef STATUS_WORD

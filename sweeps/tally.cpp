@@ -32,9 +32,8 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, double gate, G
       counts.only_deep += (status & (STATUS_THROUGH_TABLE | STATUS_SELF_OVERLAP | STATUS_BEYOND_WRIST)) == 0;
     }
     counts.not_held += (status & STATUS_NOT_HELD) != 0;
-    const bool is_unjudged = (status & STATUS_UNJUDGED) != 0;
-    counts.unjudged += is_unjudged;
-    if (is_plausible(status) && !is_unjudged && is_kept(fields, FIELD_WORST_EFFORT)) {
+    counts.unjudged += (status & STATUS_UNJUDGED) != 0;
+    if (is_judged(status) && is_kept(fields, FIELD_WORST_EFFORT)) {
       const LeastBad one{known(FIELD_WORST_EFFORT, i), known(FIELD_FRICTION_NEEDED, i), chunk.first + i};
       counts.least_bad = std::min(counts.least_bad, one);
       counts.at_gate += is_at_gate(one.effort, gate);

@@ -207,6 +207,14 @@ Scene three_beakers() {
   return scene;
 }
 
+void take_few_grips(Scene& wet) {
+  wet.liquid->fills = {1};
+  wet.tilts = {0, radians(60)};
+  wet.grips.height = {linspace(0.2, 0.9, 24)};
+  wet.grips.roll = {linspace(radians(-60), radians(10), 12)};
+  wet.grips.obliquity = {linspace(radians(-10), radians(10), 6)};
+}
+
 Scene scene_of(std::vector<VesselData> vessels, Pose pose, const HandData& hand) {
   Scene scene;
   scene.name = "test";

@@ -16,6 +16,7 @@
 #include "sweeps/run.h"
 #include "tests/support/files.h"
 #include "tests/support/natural_scenes.h"
+#include "tests/support/scenes.h"
 
 namespace wholehand {
 namespace {
@@ -24,16 +25,7 @@ Scene one_beaker() {
   Scene scene = read_scene_file(find_scene("three_beakers"));
   scene.vessels.resize(1);
   scene.robust.reset();
-  scene.liquid->fills = {1};
-  scene.tilts = {0, radians(60)};
-  const auto steps = [](Axis& axis, double from, double to, int count) {
-    axis = {};
-    axis.values.clear();
-    for (int k = 0; k < count; ++k) axis.values.push_back(from + (to - from) * k / (count - 1));
-  };
-  steps(scene.grips.height, 0.2, 0.9, 24);
-  steps(scene.grips.roll, radians(-60), radians(10), 12);
-  steps(scene.grips.obliquity, radians(-10), radians(10), 6);
+  take_few_grips(scene);
   return scene;
 }
 

@@ -18,6 +18,7 @@
 #include "sweeps/sweep_result.h"
 #include "tests/support/files.h"
 #include "tests/support/result_reader.h"
+#include "tests/support/scenes.h"
 
 namespace wholehand {
 namespace {
@@ -28,16 +29,7 @@ Scene choosy_beakers() {
   scene.vessels.resize(2);
   scene.strength.reset();  // costs most of the time, and the choice is the same
   scene.robust.reset();    // the list is that of the scores
-  scene.liquid->fills = {1};
-  scene.tilts = {0, radians(60)};
-  const auto steps = [](Axis& axis, double from, double to, int count) {
-    axis = {};
-    axis.values.clear();
-    for (int k = 0; k < count; ++k) axis.values.push_back(from + (to - from) * k / (count - 1));
-  };
-  steps(scene.grips.height, 0.2, 0.9, 24);
-  steps(scene.grips.roll, radians(-60), radians(10), 12);
-  steps(scene.grips.obliquity, radians(-10), radians(10), 6);
+  take_few_grips(scene);
   scene.output.best = 12;
   scene.output.apart = 0.025;
   return scene;
