@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
-#include <optional>
 
 #include "core/domain.h"
 #include "evidence/check_sample.h"
 #include "host/grip_backend.h"
 #include "host/run_once.h"
-#include "system/clock.h"
 #include "system/progress.h"
 
 namespace wholehand {
@@ -54,10 +52,10 @@ class Checking {
         fields_(compared_fields(scene)),
         core_(make_core_evaluator(scene)),
         core_float_(make_core_float_evaluator(scene)),
-        translation_(scene, *core_, allowance(Precision::single), options.spreads),
-        cost_(scene, *core_, float_against_double(), options.spreads),
-        float_device_(scene, *core_, float_against_double(), Spreads::where_needed),
-        exact_(scene, *core_, allowance(Precision::full), options.spreads) {
+        translation_(scene, *core_, allowance(Precision::single)),
+        cost_(scene, *core_, float_against_double()),
+        float_device_(scene, *core_, float_against_double()),
+        exact_(scene, *core_, allowance(Precision::full)) {
     const Scene& device_scene = options.device_scene ? *options.device_scene : scene;
     const std::shared_ptr<const Evaluator> device_core = make_core_evaluator(device_scene);
     host::GripBackendOptions backend_options;
@@ -68,31 +66,20 @@ class Checking {
     on_double_ = std::make_unique<host::GripBackend>(device_scene, device_core, fields_, options.on, backend_options);
   }
 
-  // The evaluations of the core that add makes for `grips` grips of the vessel.
-  std::uint64_t evaluations(std::size_t v, std::size_t grips) const {
-    return translation_.evaluations(v, grips) + cost_.evaluations(v, grips) + (on_double_ ? exact_.evaluations(v, grips) : 0);
-  }
+  std::size_t pairs() const { return on_double_ ? 3 : 2; }
 
-  // One evaluation of the core, s, from a few grips of the vessel.
-  double seconds_each(std::size_t v, const std::vector<GripInput>& grips) const {
-    const std::vector<GripInput> few(grips.begin(),
-                                     grips.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(16, grips.size())));
-    if (few.empty()) return 0;
-    const double start = monotonic_now();
-    gather(*core_, fields_, v, few);
-    return (monotonic_now() - start) / static_cast<double>(few.size());
-  }
-
-  void on_evaluated(const std::function<void(std::uint64_t)>& done) {
-    for (Comparer* comparer : {&translation_, &cost_, &exact_}) comparer->on_evaluated(done);
-  }
-
-  void add(std::size_t v, const std::vector<GripInput>& grips) {
+  // Calls `done` after each comparison of the vessel's grips.
+  void add(std::size_t v, const std::vector<GripInput>& grips, const std::function<void()>& done) {
     const GatheredPlanes single = gather(*core_float_, fields_, v, grips), full = gather(*core_, fields_, v, grips);
     const GatheredPlanes device = gather(*on_float_, v, grips);
     translation_.add(v, grips, device, single);
+    done();
     cost_.add(v, grips, single, full);
-    if (on_double_) exact_.add(v, grips, gather(*on_double_, v, grips), full);
+    done();
+    if (on_double_) {
+      exact_.add(v, grips, gather(*on_double_, v, grips), full);
+      done();
+    }
     const bool has_liquid = !scene_.tilts.empty();
     const auto liquid_float = core_liquid(scene_, *core_float_, v), liquid = core_liquid(scene_, *core_, v);
     if (has_liquid) translation_.add_liquid(v, on_float_->liquid(v), liquid_float);
@@ -154,22 +141,16 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
   try {
     Checking checking(scene, options);
     std::uint64_t total = 0, done = 0;
-    double seconds = 0;
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       samples.push_back(check_sample(scene, plan, v));
-      const std::uint64_t evaluations = checking.evaluations(v, samples[v].grips.size());
-      total += evaluations;
-      seconds += static_cast<double>(evaluations) * checking.seconds_each(v, samples[v].grips);
+      total += samples[v].grips.size() * checking.pairs();
     }
-    if (!options.is_quiet) announce_time("comparing", seconds);
-    std::optional<Progress> progress;  // from the first evaluation on: the device makes its kernels ready before
+    Progress progress(total, 0, "comparisons", options.is_quiet ? ProgressSink::none : progress_sink());
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       const CheckSample& sample = samples[v];
-      checking.on_evaluated([&](std::uint64_t evaluated) {
-        if (!progress) progress.emplace(total, 0, "evaluations", options.is_quiet ? ProgressSink::none : progress_sink());
-        progress->update("comparing the grips of " + scene.vessels[v].name, done += evaluated);
-      });
-      checking.add(v, sample.grips);
+      const std::string what = "comparing the grips of " + scene.vessels[v].name;
+      progress.update(what, done);
+      checking.add(v, sample.grips, [&] { progress.update(what, done += sample.grips.size()); });
       report.vessels.push_back({scene.vessels[v].name, sample.own, sample.grips.size() - sample.own});
     }
     for (const Precision precision : host::contracted_precisions(host::Device(options.on, options.device)))

@@ -18,9 +18,7 @@ namespace wholehand {
 struct CheckOptions {
   std::string on = "vulkan";  // see open_backend
   host::DeviceOptions device;
-  bool is_quiet = false;  // no progress on stderr
-  // What is outside is the same; where_needed takes a tenth of the time, and leaves tolerances out of the tables.
-  Spreads spreads = Spreads::of_all;
+  bool is_quiet = false;                // no progress on stderr
   const Scene* device_scene = nullptr;  // tests: what the device evaluates instead of the scene
 };
 

@@ -260,7 +260,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   };
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < n; ++i)
-    if (spreads_ == Spreads::of_all || needs_spread(vessel, a, b, truth, floor, i)) chosen.push_back(i);
+    if (spreads_ == Spreads::everywhere || needs_spread(vessel, a, b, truth, floor, i)) chosen.push_back(i);
   const Spread spread = spread_of(vessel, grips, truth, chosen);
   const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
     return floor(field, k, i) + 2 * spread.reals[(fields.plane[field] + k) * n + i];
@@ -330,11 +330,6 @@ double Comparer::corner(std::size_t vessel) const {
   return std::sqrt(2 * tip_radius(scene_.hand) * allowed_.epsilon * (reach(scene_) + scene_.vessels[vessel].height));
 }
 
-std::uint64_t Comparer::evaluations(std::size_t vessel, std::size_t grips) const {
-  const std::uint64_t ways = corner(vessel) > shift(vessel) ? 2 * WAYS : WAYS;
-  return grips * (ways + others_.size());
-}
-
 Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripInput>& all, const GatheredPlanes& truth,
                                      const std::vector<std::size_t>& chosen) const {
   const FieldSet& fields = truth.fields;
@@ -346,7 +341,6 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
   for (const std::size_t i : chosen) grips.push_back(all[i]);
   // spread of the planes from `first` on, which are those from `first_of_other` on of the other
   const auto spread_to = [&](GatheredPlanes other, int first, int first_of_other, int planes) {
-    on_evaluated_(m);
     to_compared_form(other);
     std::vector<char> differing(m, 0), by_gate(m, 0);
     for (std::size_t k = 0; k < m; ++k) {
@@ -364,7 +358,6 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
         if (std::isfinite(difference) || differing[k] == 0) most = std::max(most, difference);
       }
   };
-  on_evaluated_(0);
   for (int way = 0; way < WAYS; ++way)
     spread_to(gather(core_, fields, vessel, moved(grips, way, shift, length)), 0, 0, fields.real_planes);
   for (const auto& core : others_) spread_to(gather(*core, fields, vessel, grips), 0, 0, fields.real_planes);

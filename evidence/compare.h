@@ -83,26 +83,20 @@ struct Outlier {
   double difference = 0;  // in the row's unit; of an outcome 1
 };
 
-// For which grips the core's own answers are moved, at twenty evaluations a grip. Where needed: where the sides differ by more than is
-// allowed without. What is outside, excluded and grazing is the same; tolerances and shares of them are then those without, where these are
-// enough.
-enum class Spreads { of_all, where_needed };
+// For which grips the core's own answers are moved, at twenty evaluations a grip. Where needed: where the sides differ by more than the floor of the
+// tolerance. What is outside, excluded and grazing is the same for both; of the other grips the tolerance is the floor alone.
+enum class Spreads { where_needed, everywhere };
 
 // Gathers comparisons vessel by vessel.
 class Comparer {
  public:
-  Comparer(const Scene& scene, const Evaluator& core, Allowance allowed, Spreads spreads = Spreads::of_all);
+  Comparer(const Scene& scene, const Evaluator& core, Allowance allowed, Spreads spreads = Spreads::where_needed);
 
   // `a` and `b` evaluate `grips` of the vessel, both with the same fields. Grips that graze by the core, or within the allowance of
   // that, are left out and counted, as are those whose discrete outcomes differ where the core's own change within the allowance
   // (excluded); differing ones beyond that count as outside.
   void add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b);
   void add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b);
-
-  // How often the core evaluates moved grips while `grips` of the vessel are added, at most: nearly all of the time that add takes.
-  std::uint64_t evaluations(std::size_t vessel, std::size_t grips) const;
-  // Calls `done` while add runs, with how many of these evaluations have just been made: first with 0.
-  void on_evaluated(std::function<void(std::uint64_t)> done) { on_evaluated_ = std::move(done); }
 
   const std::vector<Comparison>& rows() const { return rows_; }
   std::uint64_t grips() const { return grips_; }
@@ -152,7 +146,6 @@ class Comparer {
   Allowance allowed_;
   Spreads spreads_;
   std::vector<std::shared_ptr<const Evaluator>> others_;  // with tips and strengths as far off as either side may be
-  std::function<void(std::uint64_t)> on_evaluated_ = [](std::uint64_t) {};
   std::vector<Comparison> rows_;
   std::vector<Flip> flips_;
   std::vector<Outlier> outliers_;

@@ -58,7 +58,7 @@ class ExtremeTally {
   // `is_truth`: the backend is the core in double itself
   ExtremeTally(const ExtremeCase& extreme, const Evaluator& truth, const BackendInfo& info, bool is_truth)
       : scene_(extreme.scene), truth_(truth) {
-    if (!is_truth) comparer_.emplace(scene_, truth, allowance(info.precision), Spreads::where_needed);
+    if (!is_truth) comparer_.emplace(scene_, truth, allowance(info.precision));
     row_.name = extreme.name;
     row_.backend = info.backend;
     row_.device = info.device;

@@ -11,7 +11,6 @@
 #include "core/text.h"
 #include "report/grips.h"
 #include "shaders/layout.h"
-#include "system/progress.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -183,10 +182,6 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
   Agreement agreement;
   const GatheredPlanes of_file = planes_of_file(source, vessel, places, by_core, agreement.outcomes);
   Comparer comparer(scene, *core, allowance(source.result.origin().precision));
-  Progress progress(comparer.evaluations(0, grips.size()), 0, "evaluations");
-  std::uint64_t done = 0;
-  comparer.on_evaluated(
-      [&](std::uint64_t evaluated) { progress.update("agreement of " + scene.vessels[0].name, done += evaluated); });
   comparer.add(0, grips, of_file, by_core);
   for (const Comparison& row : comparer.rows()) {
     if (row.kernel == "whole") {
@@ -232,8 +227,11 @@ void write_agreement(MarkupWriter& html, const ReportSource& source, std::size_t
                readable_number(row.compared), readable_number(row.outside)});
   table.end();
   std::string note =
-      "The tolerance is the change of the core's own answer when the grip moves by as much as the precision of the sweep leaves "
-      "open. The table shows the tolerance of the grip with the largest difference.";
+      "The tolerance of a number is a floor for rounding and stop tolerance. For a grip beyond a floor it grows by how far the "
+      "core's own "
+      "answer changes when the grip moves by as much as the precision of the sweep leaves open. The table shows the tolerance of "
+      "the grip "
+      "with the largest difference.";
   if (!agreement.uncompared.empty()) note += fmt::format(" These are not compared: {}.", joined(agreement.uncompared, ", "));
   html.element("p", note, {{"class", "note"}}).close();
 }

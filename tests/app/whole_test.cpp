@@ -37,7 +37,7 @@ TEST(Whole, EveryGripOfACoarseDefaultSweepAgrees) {
   const FieldSet fields = make_field_set(variable_fields(variables), scene);
   const auto truth = make_core_evaluator(scene);
   const auto backend = std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, "vulkan");
-  Comparer comparer(scene, *truth, allowance(Precision::single), Spreads::where_needed);
+  Comparer comparer(scene, *truth, allowance(Precision::single));
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     std::vector<GripInput> grips(plan.grips());
     plan.fill(v, 0, grips.size(), grips.data());

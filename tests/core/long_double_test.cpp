@@ -27,7 +27,7 @@ TEST(LongDouble, DoubleIsWithinItsOwnTolerances) {
     const Scene scene = read_scene_file(find_scene(name));
     const auto core = make_core_evaluator(scene);
     const auto wide = core_ld::make_evaluator(scene, {});
-    Comparer comparer(scene, *core, allowance(Precision::full), Spreads::where_needed);
+    Comparer comparer(scene, *core, allowance(Precision::full));
     bool any = false;
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       const auto grips = some_grips(scene, v, name == std::string("three_beakers") ? 97 : 1);

@@ -150,7 +150,7 @@ TEST(Check, BlamesTheDeviceOnlyForWhatIsItsOwn) {
   };
   const auto of_precision = [&](const GatheredPlanes& device, const GatheredPlanes& core_float) {
     const auto compared = [&](const GatheredPlanes& a, const GatheredPlanes& b, Allowance allowed) {
-      Comparer comparer(scene, *core, allowed, Spreads::where_needed);
+      Comparer comparer(scene, *core, allowed);
       comparer.add(0, grips, a, b);
       return comparer;
     };

@@ -44,7 +44,7 @@ class Compare : public testing::Test {
     GatheredPlanes other = planes_;
     for (std::size_t i = 0; i < grips_.size(); ++i)
       if (feasible(i)) change(other, i);
-    Comparer comparer(scene_, *core_, allowance(Precision::single));
+    Comparer comparer(scene_, *core_, allowance(Precision::single), Spreads::everywhere);
     comparer.add(0, grips_, other, planes_);
     expect_same_verdicts(comparer, other);
     std::uint64_t named = 0, all = 0;
@@ -57,20 +57,20 @@ class Compare : public testing::Test {
   }
 
   // Where the core's answers are moved for those grips alone that may need it, the same grips are outside, by the same differences.
-  void expect_same_verdicts(const Comparer& of_all, const GatheredPlanes& other) const {
-    Comparer needed(scene_, *core_, allowance(Precision::single), Spreads::where_needed);
+  void expect_same_verdicts(const Comparer& everywhere, const GatheredPlanes& other) const {
+    Comparer needed(scene_, *core_, allowance(Precision::single));
     needed.add(0, grips_, other, planes_);
-    ASSERT_EQ(needed.rows().size(), of_all.rows().size());
+    ASSERT_EQ(needed.rows().size(), everywhere.rows().size());
     for (std::size_t r = 0; r < needed.rows().size(); ++r) {
-      const Comparison &found = needed.rows()[r], &wanted = of_all.rows()[r];
+      const Comparison &found = needed.rows()[r], &wanted = everywhere.rows()[r];
       EXPECT_EQ(found.outside, wanted.outside) << wanted.quantity;
       EXPECT_EQ(found.compared, wanted.compared) << wanted.quantity;
       EXPECT_EQ(found.worst, wanted.worst) << wanted.quantity;
       EXPECT_EQ(std::max(1.0, found.worst_ratio), std::max(1.0, wanted.worst_ratio)) << wanted.quantity;
     }
-    EXPECT_EQ(needed.grazing(), of_all.grazing());
-    EXPECT_EQ(needed.excluded(), of_all.excluded());
-    EXPECT_EQ(needed.holds(), of_all.holds());
+    EXPECT_EQ(needed.grazing(), everywhere.grazing());
+    EXPECT_EQ(needed.excluded(), everywhere.excluded());
+    EXPECT_EQ(needed.holds(), everywhere.holds());
   }
 
   bool feasible(std::size_t i) const { return (planes_.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE; }
@@ -220,7 +220,7 @@ TEST_F(Compare, LetsFewOutcomesDifferWithinTheMargin) {
     const GatheredPlanes sure = gather(*core, all_fields(scene), 0, grips);
     GatheredPlanes other = sure;
     for (std::size_t i = 0; i < doubtful; ++i) other.uints[other.fields.plane[FIELD_TOUCH_MASK] * other.count + i] ^= 1u << joint;
-    Comparer comparer(scene, *core, allowance(Precision::single), Spreads::where_needed);
+    Comparer comparer(scene, *core, allowance(Precision::single));
     comparer.add(0, grips, other, sure);
     EXPECT_EQ(comparer.excluded(), doubtful);
     EXPECT_EQ(comparer.allowed(), allowed_flips(comparer.grips() - comparer.grazing()));

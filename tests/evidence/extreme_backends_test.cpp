@@ -63,7 +63,7 @@ TEST(Extreme, DoubleIsWithinItsTolerancesOfLongDouble) {
     if (name == "thousand_elements") continue;
     const AnsweredScene full(extreme_scene(name));
     const auto wide = core_ld::make_evaluator(full.scene, {});
-    Comparer comparer(full.scene, *full.core, allowance(Precision::full), Spreads::where_needed);
+    Comparer comparer(full.scene, *full.core, allowance(Precision::full));
     for (std::size_t v = 0; v < full.planes.size(); ++v) {
       comparer.add(v, full.grips[v], full.planes[v], gather(*wide, full.fields, v, full.grips[v]));
       if (full.scene.liquid) comparer.add_liquid(v, core_liquid(full.scene, *full.core, v), core_liquid(full.scene, *wide, v));

@@ -101,7 +101,6 @@ TEST(NaturalScenes, TheCheckHolds) {
     const Scene scene = natural_scene(seed);
     CheckOptions options;
     options.is_quiet = true;
-    options.spreads = Spreads::where_needed;
     const CheckReport report = check_scene(scene, options);
     EXPECT_TRUE(verdict_of(report).holds) << "seed " << seed << "\n" << check_text(report) << scene.text;
     grips += report.translation.grips;

@@ -50,7 +50,7 @@ Side side_of(const Scene& scene, const Evaluator& core) {
 
 Comparer compared(const Scene& scene, const Evaluator& core, Allowance allowed, const Side& a, const Side& b,
                   const LiquidSide& liquid_a, const LiquidSide& liquid_b) {
-  Comparer comparer(scene, core, allowed, Spreads::where_needed);
+  Comparer comparer(scene, core, allowed);
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const auto grips = some_grips(scene, v);
     comparer.add(v, grips, a(v, grips), b(v, grips));

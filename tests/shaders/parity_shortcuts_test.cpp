@@ -72,7 +72,7 @@ void expect_same_or_close(bool is_cpu, const Scene& scene, Precision precision, 
   }
   if (is_cpu) return;
   const auto core = make_core_evaluator(scene);
-  Comparer comparer(scene, *core, allowance(precision), Spreads::where_needed);
+  Comparer comparer(scene, *core, allowance(precision));
   comparer.add(0, grips, merged, all);
   EXPECT_TRUE(comparer.holds()) << what << "\n" << table_of(comparer);
 }
@@ -133,7 +133,7 @@ TEST(ParityShortcuts, TheSmallBuildIsHeldToTheCore) {
       options.build = BUILD_SMALL;
       const auto backend = backend_of(scene, fields, precision, options);
       EXPECT_EQ(backend->pipelines(0).outline, OUTLINE_BUFFER);
-      Comparer comparer(scene, *truth, allowance(precision), Spreads::where_needed);
+      Comparer comparer(scene, *truth, allowance(precision));
       for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
         const auto grips = grips_of(scene, v, 60);
         comparer.add(v, grips, gather(*backend, v, grips), gather(*truth, fields, v, grips));

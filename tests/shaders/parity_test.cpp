@@ -55,7 +55,7 @@ TEST(Parity, SobolScene) {
   const auto truth = make_core_evaluator(scene);
   for (const Precision precision : {Precision::single, Precision::full}) {
     const auto backend = backend_of(scene, fields, precision);
-    Comparer comparer(scene, *truth, allowance(precision), Spreads::where_needed);
+    Comparer comparer(scene, *truth, allowance(precision));
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       std::vector<GripInput> grips(plan.grips());
       plan.fill(v, 0, grips.size(), grips.data());
@@ -197,7 +197,7 @@ TEST(Parity, LatticeDistance) {
     options.evaluator.lattice_bits = bits;
     const auto backend = backend_of(scene, fields, Precision::full, options);
     const auto core = make_core_evaluator(scene, options.evaluator);
-    Comparer comparer(scene, *core, allowance(Precision::full), Spreads::where_needed);
+    Comparer comparer(scene, *core, allowance(Precision::full));
     comparer.add(0, grips, gather(*backend, 0, grips), gather(*core, fields, 0, grips));
     EXPECT_TRUE(comparer.holds()) << bits << " bits\n" << table_of(comparer);
   }
@@ -213,7 +213,7 @@ TEST(Parity, LiquidAtItsEnds) {
   for (const Precision precision : {Precision::single, Precision::full}) {
     const auto backend = backend_of(scene, fields, precision);
     const auto core = core_of(scene, precision);
-    Comparer comparer(scene, *truth, allowance(precision), Spreads::where_needed);
+    Comparer comparer(scene, *truth, allowance(precision));
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       const auto device = backend->liquid(v);
       comparer.add_liquid(v, device, core_liquid(scene, *core, v));
@@ -238,7 +238,7 @@ bool passes(const Scene& scene, const Scene& broken, bool device) {
   const FieldSet fields = all_fields(scene);
   const auto truth = make_core_evaluator(scene), core = make_core_float_evaluator(scene);
   const auto grips = grips_of(scene, 0, COUNT);
-  Comparer comparer(scene, *truth, allowance(Precision::single), Spreads::where_needed);
+  Comparer comparer(scene, *truth, allowance(Precision::single));
   const auto against = [&](const GatheredPlanes& planes, const std::vector<LiquidResult>& liquid) {
     comparer.add(0, grips, planes, gather(*core, fields, 0, grips));
     comparer.add_liquid(0, liquid, core_liquid(scene, *core, 0));
@@ -295,7 +295,7 @@ TEST(Parity, ShiftsAreNoticedAndNoiseIsNot) {
     feasible += (planes.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE ? 1 : 0;
   ASSERT_GT(feasible, 100u);
   const auto compared = [&](Precision precision, const GatheredPlanes& other) {
-    Comparer comparer(scene, *truth, allowance(precision), Spreads::where_needed);
+    Comparer comparer(scene, *truth, allowance(precision));
     comparer.add(0, grips, other, planes);
     return comparer;
   };

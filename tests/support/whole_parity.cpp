@@ -63,7 +63,7 @@ void expect_parity(const Scene& scene, const std::string& name, int count) {
   for (const Precision precision : {Precision::single, Precision::full}) {
     const auto backend = backend_of(scene, fields, precision);
     const auto core = core_of(scene, precision);
-    Comparer comparer(scene, *truth, allowance(precision), Spreads::where_needed);
+    Comparer comparer(scene, *truth, allowance(precision));
     std::size_t feasible = 0;
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       const auto grips = grips_of(scene, v, count);
