@@ -11,23 +11,15 @@
 namespace wholehand::host {
 namespace {
 
-// Constants as Vulkan wants them: bytes, and where in them each id is.
-struct Specialization {
-  std::vector<vk::SpecializationMapEntry> entries;
-  std::vector<std::byte> bytes;
-  SpecializationBits bits;  // the same values
+template <class T>
+std::uint64_t bits_of(T value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof value);
+  return bits;
+}
 
-  template <class T>
-  void add(std::uint32_t id, T value) {
-    entries.emplace_back(id, static_cast<std::uint32_t>(bytes.size()), sizeof value);
-    const auto raw = std::as_bytes(std::span(&value, 1));
-    bytes.insert(bytes.end(), raw.begin(), raw.end());
-    std::memcpy(&bits[id], &value, sizeof value);
-  }
-};
-
-Specialization specialize(const ShaderInterface& shader, std::span<const Constant> constants, const std::string& name) {
-  Specialization result;
+SpecializationBits bits_of(const ShaderInterface& shader, std::span<const Constant> constants, const std::string& name) {
+  SpecializationBits result;
   for (const Constant& constant : constants) {
     const auto declared = shader.constants.find(constant.id);
     if (declared == shader.constants.end()) {
@@ -42,19 +34,19 @@ Specialization specialize(const ShaderInterface& shader, std::span<const Constan
           }
           switch (kind) {
             case ConstantKind::float32:
-              result.add(constant.id, static_cast<float>(value));
+              result[constant.id] = bits_of(static_cast<float>(value));
               break;
             case ConstantKind::float64:
-              result.add(constant.id, static_cast<double>(value));
+              result[constant.id] = bits_of(static_cast<double>(value));
               break;
             case ConstantKind::int32:
-              result.add(constant.id, static_cast<std::int32_t>(value));
+              result[constant.id] = bits_of(static_cast<std::int32_t>(value));
               break;
             case ConstantKind::uint32:
-              result.add(constant.id, static_cast<std::uint32_t>(value));
+              result[constant.id] = bits_of(static_cast<std::uint32_t>(value));
               break;
             case ConstantKind::boolean:
-              result.add(constant.id, static_cast<VkBool32>(value != 0));
+              result[constant.id] = value != 0;
               break;
           }
         },
@@ -131,16 +123,13 @@ Kernel::Kernel(const DeviceState& device, std::span<const std::uint32_t> words, 
                             std::to_string(on.info.max_storage_buffers),
                         Remedy::core);
   }
-  const Specialization specialization = specialize(shader, constants, name);
-  state_->words = specialized(words, specialization.bits, kept_widths(on.info, shader));
+  state_->words = specialized(words, bits_of(shader, constants, name), state_->group_size, kept_widths(on.info, shader));
   checked("compiling kernel " + name, [&] {
     state_->set_layout = vk::raii::DescriptorSetLayout(*on.device, vk::DescriptorSetLayoutCreateInfo({}, layout));
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, MAX_PUSH);
     state_->layout = vk::raii::PipelineLayout(*on.device, vk::PipelineLayoutCreateInfo({}, *state_->set_layout, push));
     const vk::raii::ShaderModule module(*on.device, {{}, state_->words.size() * sizeof(std::uint32_t), state_->words.data()});
-    const vk::SpecializationInfo special(static_cast<std::uint32_t>(specialization.entries.size()), specialization.entries.data(),
-                                         specialization.bytes.size(), specialization.bytes.data());
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &special);
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
     state_->pipeline = vk::raii::Pipeline(*on.device, *on.cache, vk::ComputePipelineCreateInfo({}, stage, *state_->layout));
   });
   state_->name = std::move(name);

@@ -42,8 +42,9 @@ std::uintmax_t reduced_size(const Words& words) {
   const std::string from = folder / "module.spv", to = folder / "reduced.spv";
   write_file(from, std::string(reinterpret_cast<const char*>(words.data()), words.size() * sizeof words[0]));
   const std::string command =
-      "spirv-opt --loop-unroll --ccp --eliminate-dead-branches --merge-blocks --eliminate-dead-code-aggressive '" + from +
-      "' -o '" + to + "'";
+      "spirv-opt --fold-spec-const-op-composite --loop-unroll --ccp --eliminate-dead-branches --merge-blocks "
+      "--eliminate-dead-code-aggressive '" +
+      from + "' -o '" + to + "'";
   EXPECT_EQ(system(command.c_str()), 0) << command;
   return std::filesystem::exists(to) ? std::filesystem::file_size(to) / sizeof words[0] : 0;
 }

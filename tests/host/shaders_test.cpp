@@ -91,7 +91,7 @@ TEST(Shaders, DamagedWordsAreNotValid) {
   EXPECT_NE(complaints(words.first(words.size() / 2)), "");
 }
 
-// As kernels give them to a driver: constants of a scene in them, and without what these switch off.
+// As kernels give them to a driver: with the constants of a scene.
 TEST(Shaders, SpecializedOnesAreValid) {
   host::SpecializationBits all{{CONST_GROUP_SIZE, 64}, {CONST_TABLE, 1},    {CONST_BETWEEN, 2},
                                {CONST_ARM, 24},        {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_WORST}};
@@ -100,7 +100,7 @@ TEST(Shaders, SpecializedOnesAreValid) {
   for (const EmbeddedShader& shader : embedded_shaders()) {
     const std::vector<std::uint32_t> widths = shader.precision == 0 ? std::vector{32u} : std::vector{32u, 64u};
     for (const host::SpecializationBits& bits : {all, few})
-      EXPECT_EQ(complaints(host::specialized(shader.words, bits, widths)), "") << label(shader);
+      EXPECT_EQ(complaints(host::specialized(shader.words, bits, {64, 1, 1}, widths)), "") << label(shader);
   }
 }
 
