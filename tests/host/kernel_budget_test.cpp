@@ -57,7 +57,7 @@ TEST(KernelBudget, NoModuleIsLong) {
     RecordProperty(label + " " + std::to_string(++number), std::to_string(size) + " words");
   }
   for (const auto& [words, label] : modules_of(BUILD_WIDE, {"three_beakers"})) {
-    // all loops of a solve are unrolled (docs/results)
+    // all loops of a solve are unrolled (docs/drivers.md)
     const bool solves = label.ends_with("effort") || label.ends_with("reserve");
     const std::uintmax_t size = reduced_size(words);
     EXPECT_LE(size, solves ? 46000u : 32000u) << label;

@@ -21,7 +21,7 @@ class Documents(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)  # where the lines write
             try:
-                self.check("README.md", 10, names)
+                self.check("README.md", 6, names)
                 # both sweep and check the same scene, which takes a minute of processor time
                 same = ("ds = wh.sweep(scene, on=\"vulkan\")", "check = wh.check(scene)")
                 self.assertTrue(set(same) <= set(lines))
