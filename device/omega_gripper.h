@@ -22,7 +22,7 @@ Rotation rotation_from_dhd(const double frame[3][3]);
 
 // Opens device `number` of those that the SDK counts (0: the first; address "omega" or "omega:NUMBER"). `library`: path of the SDK, or
 // empty (see load_dhd_library). `watchdog_s`: without a new force for that long the device drops all force, whatever has become of this
-// program; in steps of 125 us, 31.875 ms at most. stderr reports a longer time and a device that has no watchdog.
+// program; in steps of 125 us, 31.875 ms at most, and stderr reports a longer one.
 //
 // The name and what the SDK says of errors are kept to printable ASCII.
 //
@@ -34,7 +34,7 @@ Rotation rotation_from_dhd(const double frame[3][3]);
 // let_go_meanwhile(), and the watchdog's.
 //
 // Throws Error (usage: a watchdog that is no positive time; failure: no SDK, no such device, another session has it, another model, or
-// maximum forces that the device does not take).
+// a device that takes no watchdog or not these maximum forces).
 std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_s, int number = 0);
 
 // Every device that the SDK counts, opened for a moment. Without SDK or without a device: one entry that says so. Does not throw.
