@@ -7,8 +7,6 @@
 #include "placed.glsl"
 #include "table.glsl"
 
-layout(local_size_x_id = CONST_GROUP_SIZE) in;
-
 void put_closing(uint grip, Closing closing, bool is_feasible) {
   bool reached = is_feasible || closing.reason >= REASON_TOO_WIDE;
   put_real(PLANE_T_INDEX, 0, grip, reached ? closing.t_index : NOT_A_NUMBER);

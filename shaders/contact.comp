@@ -5,7 +5,6 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "body.glsl"
-#include "busy.glsl"
 #include "contact.glsl"
 #include "placed.glsl"
 #include "projection.glsl"
@@ -107,7 +106,7 @@ void examine_finger(int f, int before) {
 }
 
 void examine_hand() {
-  status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
+  status = status_of(grip);
   scale = grip_scale(grip);
   touch_mask = tip_mask = finger_mask = inner_mask = used_mask = 0u;
   phalanx_depth = palm_depth = judged_depth = bone_stretch = Real(0);
@@ -129,8 +128,7 @@ void examine_hand() {
 }
 
 void main() {
-  bool is_busy = INVOCATION < push.count && is_feasible(uint_out[uint(PLANE_STATUS) * push.stride + INVOCATION]);
-  bool has_grip = take_grip(is_busy, grip);
+  bool has_grip = take_feasible_grip(grip);
   load_hand();
   load_outline();
   // a driver skips a loop of one turn that no lane takes

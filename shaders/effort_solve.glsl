@@ -3,12 +3,9 @@
 #ifndef EFFORT_SOLVE_GLSL
 #define EFFORT_SOLVE_GLSL
 
-#include "busy.glsl"
 #include "force.glsl"
 #include "gauge.glsl"
 #include "grips.glsl"
-#include "planes.glsl"
-#include "status.h"
 #include "trig.glsl"
 
 #define HALF_TOLERANCE (Real(0.5) * EFFORT_TOLERANCE)

@@ -15,11 +15,8 @@
 
 #include "force.glsl"
 #include "grips.glsl"
-#include "planes.glsl"
-#include "status.h"
 #include "trig.glsl"
 
-layout(local_size_x_id = CONST_GROUP_SIZE) in;
 // lavapipe gathers a state lane by lane, since it does not see that all lanes read the same one. This takes longer than the forces of one grip. So an
 // invocation has several grips, for which it reads a state once. A GPU should need one: it reads the state once for all lanes.
 layout(constant_id = CONST_TOGETHER) const int TOGETHER = 1;
@@ -58,7 +55,7 @@ Real torque_reference(Vec3 center, Vec3 midpoint) {
 
 Held held_by(uint grip) {
   Held held;
-  uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
+  uint status = status_of(grip);
   held.feasible = is_feasible(status);
   held.antipodal = (status & STATUS_ANTIPODAL) != 0u;
   // the frame of a tilt

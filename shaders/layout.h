@@ -220,7 +220,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define BINDING_CANDIDATES 14       // Real scores, and
 #define BINDING_INDICES 15          // uint indices of the top-N selection
 #define BINDING_STATES 16           // uniform: vec4[2 * STATES_IN_BLOCK], a stretch of the (fill, tilt) in order
-#define BINDING_LANES 17            // uint[2]: useful lanes and all of them, where a benchmark counts them (lanes.glsl)
+#define BINDING_LANES 17            // uint[2]: useful lanes and all of them, where a benchmark counts them (real.glsl)
 #define BINDINGS 18
 
 // Record of an outline or cavity element, reals: start r, start y, end r, end y, center r, center y, radius, code.

@@ -3,7 +3,7 @@
 #ifndef LIQUID_GLSL
 #define LIQUID_GLSL
 
-#include "cavity.glsl"
+#include "element.glsl"
 #include "trig.glsl"
 
 struct Slices {

@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "body.glsl"
-#include "busy.glsl"
 #include "placed.glsl"
 #include "wrist.glsl"
 
@@ -60,7 +59,7 @@ Real digits_overlap() {
 }
 
 void judge_hand() {
-  uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
+  uint status = status_of(grip);
   scale = grip_scale(grip);
   if (BETWEEN > 0) {
     Real self_depth = digits_overlap();
@@ -78,8 +77,7 @@ void judge_hand() {
 }
 
 void main() {
-  bool is_busy = INVOCATION < push.count && is_feasible(uint_out[uint(PLANE_STATUS) * push.stride + INVOCATION]);
-  bool has_grip = take_grip(is_busy, grip);
+  bool has_grip = take_feasible_grip(grip);
   load_hand();
   // a driver skips a loop of one turn that no lane takes
   [[dont_unroll]] for (bool once = has_grip; once; once = false) judge_hand();

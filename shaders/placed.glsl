@@ -5,8 +5,6 @@
 
 #include "grips.glsl"
 #include "hand_table.glsl"
-#include "planes.glsl"
-#include "status.h"
 
 layout(constant_id = CONST_PLACED) const int PLACED = -1;
 

@@ -3,7 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "busy.glsl"
 #include "contact.glsl"
 #include "placed.glsl"
 #include "projection.glsl"
@@ -55,7 +54,7 @@ int pose_paper(int f, int first_joint, PaperAxis axis) {
 }
 
 void rest_hand() {
-  status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
+  status = status_of(grip);
   scale = grip_scale(grip);
   Mat3 rotation = Mat3(kept_vector(PLACED, grip), kept_vector(PLACED + 3, grip), kept_vector(PLACED + 6, grip));
   Real closure = kept(PLANE_CLOSURE, 0, grip);
@@ -77,8 +76,7 @@ void rest_hand() {
 }
 
 void main() {
-  bool is_busy = INVOCATION < push.count && is_feasible(uint_out[uint(PLANE_STATUS) * push.stride + INVOCATION]);
-  bool has_grip = take_grip(is_busy, grip);
+  bool has_grip = take_feasible_grip(grip);
   load_hand();
   load_outline();
   // a driver skips a loop of one turn that no lane takes

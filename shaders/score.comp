@@ -4,16 +4,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "planes.glsl"
+#include "grips.glsl"
 #include "score.glsl"
-#include "status.h"
-
-layout(local_size_x_id = CONST_GROUP_SIZE) in;
 
 void main() {
   uint grip = INVOCATION;
   if (grip >= push.count) return;
-  uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
+  uint status = status_of(grip);
   Real terms[6] = Real[](Real(0), Real(0), Real(0), Real(0), Real(0), Real(0));
   Real score = Real(0);
   if (is_feasible(status)) {

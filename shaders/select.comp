@@ -6,10 +6,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "planes.glsl"
-#include "status.h"
+#include "grips.glsl"
 
-layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(std430, binding = BINDING_CANDIDATES) buffer CandidateBlock { Real candidate_scores[]; };
 layout(std430, binding = BINDING_INDICES) buffer IndexBlock { uint candidate_indices[]; };
 
@@ -41,7 +39,7 @@ void main() {
     if (score < last_score) continue;
     uint index = entry;
     if (from_scores) {
-      uint status = uint_out[uint(PLANE_STATUS) * push.stride + entry];
+      uint status = status_of(entry);
       if (!is_eligible(status)) continue;
     } else {
       index = candidate_indices[from + entry];

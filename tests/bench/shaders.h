@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Embedded in the benchmarks alone: the shaders of tests/bench/shaders, and those of the program that count their useful lanes
-// (shaders/lanes.glsl).
+// (shaders/real.glsl).
 #pragma once
 
 #include "host/shaders.h"

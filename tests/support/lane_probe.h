@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a device counts useful lanes right (shaders/lanes.glsl).
+// Whether a device counts useful lanes right (shaders/real.glsl).
 #pragma once
 
 #include "host/device.h"
