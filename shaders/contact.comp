@@ -91,14 +91,13 @@ void examine_finger(int f, int before) {
     int joint = is_joint ? start : first_joint + findLSB(places);
     bool presses = touching && support.element != int(scene.lid);
     Vec3 place = Vec3(0), normal = Vec3(0);
-    // a driver skips a loop of one turn that no lane takes
-    [[dont_unroll]] for (bool once = presses; once; once = false) {
+    ONCE_IF(presses) {
       Vec3 outward = SDF_KIND == SDF_LATTICE ? lattice_gradient(ball.place) : support.normal;
       place = ball.place - support.distance * outward;
       normal = -outward;
       vacant &= is_joint ? ~0u : ~(1u << (joint - first_joint));
     }
-    [[dont_unroll]] for (bool once = is_joint || presses; once; once = false) {
+    ONCE_IF(is_joint || presses) {
       put_point(CONTACTS, 2 * joint, grip, place);
       put_point(CONTACTS, 2 * joint + 1, grip, normal);
     }
@@ -131,6 +130,5 @@ void main() {
   bool has_grip = take_feasible_grip(grip);
   load_hand();
   load_outline();
-  // a driver skips a loop of one turn that no lane takes
-  [[dont_unroll]] for (bool once = has_grip; once; once = false) examine_hand();
+  ONCE_IF(has_grip) examine_hand();
 }

@@ -49,8 +49,7 @@ void main() {
   is_safe = TASK == EFFORT_WORST && push.flag != 0u;
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
-  // a driver skips a loop of one turn that no lane takes; it does not skip a branch
-  [[dont_unroll]] for (bool once = has_grip; once; once = false) {
+  ONCE_IF(has_grip) {
     load_contacts(grip);
     Real sa, ca, sb, cb;
     sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
@@ -81,7 +80,7 @@ void main() {
       Vec4 tilted = states_in[2u * state + 1u];
       Six wanted = wanted_for(states_in[2u * state], tilted);
       bool is_past = false;
-      [[dont_unroll]] for (bool once = is_safe && tilted.z >= Real(0); once; once = false) {
+      ONCE_IF(is_safe && tilted.z >= Real(0)) {
         Real safe_tilt = kept(PLANE_SAFE_TILT, int(tilted.w), grip);
         is_past = is_no_number(safe_tilt) || safe_tilt < tilted.z;
       }
@@ -97,7 +96,7 @@ void main() {
     restart(solve.wanted, ROUNDING * solve.size, is_new && !has_basis, is_new && has_basis);
     has_basis = has_basis || is_new;
     Real tolerance = is_rising && rises > 0 ? RISE_TOLERANCE : HALF_TOLERANCE;
-    [[dont_unroll]] for (bool once = is_solving && pivots >= FRESH_PIVOTS; once; once = false) {
+    ONCE_IF(is_solving && pivots >= FRESH_PIVOTS) {
       refine();
       pivots = 0;
     }
@@ -109,7 +108,7 @@ void main() {
       solve.done = false;
       pivots = FRESH_PIVOTS;
     }
-    [[dont_unroll]] for (bool once = is_solving && solve.done; once; once = false) {
+    ONCE_IF(is_solving && solve.done) {
       finish(solve);
       Vec4 tilted = states_in[2u * state + 1u];
       has_basis = (solve.effort < NO_DISTANCE && solve.is_known) || solve.is_beyond;
@@ -117,7 +116,7 @@ void main() {
       // a basis of another load may end in a corner: an effort unknown then is solved from the start
       bool is_told = has_basis || !is_warm;
       bool is_coarse = is_rising && rises > 0 && has_basis;
-      [[dont_unroll]] for (bool rise = is_coarse; rise; rise = false) {
+      ONCE_IF(is_coarse) {
         uint next = highest(solve, solve.low * (Real(1) + RISE_TOLERANCE), state);
         rises = next == state ? 0 : rises - 1;
         state = next;

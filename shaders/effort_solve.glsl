@@ -3,6 +3,7 @@
 #ifndef EFFORT_SOLVE_GLSL
 #define EFFORT_SOLVE_GLSL
 
+#include "build.glsl"
 #include "force.glsl"
 #include "gauge.glsl"
 #include "grips.glsl"
@@ -228,7 +229,7 @@ void finish(inout Solve solve) {
 
 // Where a grip's turns ran out before its states did.
 void leave_unfinished(uint grip, bool is_unfinished) {
-  [[dont_unroll]] for (bool once = is_unfinished; once; once = false) uint_out[uint(PLANE_STATUS) * push.stride + grip] |= STATUS_OUT_OF_TURNS;
+  ONCE_IF(is_unfinished) uint_out[uint(PLANE_STATUS) * push.stride + grip] |= STATUS_OUT_OF_TURNS;
 }
 
 #endif

@@ -79,6 +79,5 @@ void judge_hand() {
 void main() {
   bool has_grip = take_feasible_grip(grip);
   load_hand();
-  // a driver skips a loop of one turn that no lane takes
-  [[dont_unroll]] for (bool once = has_grip; once; once = false) judge_hand();
+  ONCE_IF(has_grip) judge_hand();
 }

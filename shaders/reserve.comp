@@ -83,8 +83,7 @@ bool is_busy(uint grip) {
 void main() {
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
-  // loops of one turn instead of branches, as in effort.comp
-  [[dont_unroll]] for (bool once = has_grip; once; once = false) {
+  ONCE_IF(has_grip) {
     load_contacts(grip);
     Real sa, ca, sb, cb;
     sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
@@ -94,7 +93,7 @@ void main() {
   // the friction begins where the worst state's direction puts it, and goes on there in the blocks that follow
   uint hardest = 0u;
   bool is_first = TASK == EFFORT_FRICTION && push.first == 0u;
-  [[dont_unroll]] for (bool once = has_grip && TASK == EFFORT_FRICTION; once; once = false) {
+  ONCE_IF(has_grip && TASK == EFFORT_FRICTION) {
     if (!is_first) friction = kept(PLANE_FRICTION_NEEDED, 0, grip);
     Real fill = kept(PLANE_WORST_EFFORT_FILL, 0, grip), tilt = kept(PLANE_WORST_EFFORT_TILT, 0, grip);
     for (uint i = 0u; i < push.number; ++i) hardest = states_in[2u * i + 1u].w == fill && states_in[2u * i + 1u].z == tilt ? i : hardest;
@@ -130,7 +129,7 @@ void main() {
     is_warm = is_new ? has_basis : is_warm;
     restart(solve.wanted, ROUNDING * solve.size, is_new && !has_basis, is_new && has_basis);
     has_basis = has_basis || is_new;
-    [[dont_unroll]] for (bool once = is_solving && pivots >= FRESH_PIVOTS; once; once = false) {
+    ONCE_IF(is_solving && pivots >= FRESH_PIVOTS) {
       refine();
       pivots = 0;
     }
@@ -141,7 +140,7 @@ void main() {
       solve.done = false;
       pivots = FRESH_PIVOTS;
     }
-    [[dont_unroll]] for (bool once = is_solving && solve.done; once; once = false) {
+    ONCE_IF(is_solving && solve.done) {
       finish(solve);
       has_basis = (solve.effort < NO_DISTANCE && solve.is_known) || solve.is_beyond;
       is_solving = false;
@@ -184,7 +183,7 @@ void main() {
     }
   }
   if (TASK == EFFORT_FRICTION && has_grip && kept(PLANE_WORST_EFFORT, 0, grip) <= Real(1)) friction = min(friction, scene.friction);
-  [[dont_unroll]] for (bool once = has_grip; once; once = false)
+  ONCE_IF(has_grip)
     put_real(plane_of_task(), 0, grip, TASK == EFFORT_FRICTION ? (is_first ? Real(0) : friction) : worst < NO_DISTANCE ? Real(1) / worst : Real(0));
   leave_unfinished(grip, k < number);
 }

@@ -79,6 +79,5 @@ void main() {
   bool has_grip = take_feasible_grip(grip);
   load_hand();
   load_outline();
-  // a driver skips a loop of one turn that no lane takes
-  [[dont_unroll]] for (bool once = has_grip; once; once = false) rest_hand();
+  ONCE_IF(has_grip) rest_hand();
 }
