@@ -13,6 +13,7 @@
 #include "core/prepare.h"
 #include "host/grip_program.h"
 #include "host/stream.h"
+#include "host/turns.h"
 #include "shaders/status.h"
 #include "system/clock.h"
 

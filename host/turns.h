@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The most turns that the loops of each kernel take in a dispatch, as a driver counts them that ends loops after so many (TURN_BUDGET). What a
-// grip, a state or a sample takes decides how the host splits work into dispatches, and what it leaves to the core.
+// The most turns that the loops of each kernel take in a dispatch. What a grip, a state or a sample takes decides how the host splits work
+// into dispatches, and what it leaves to the core.
+//
+// Mesa's CPU driver ends every loop without a word after 65,535 turns of a vector of invocations, counted over all its loops together. A loop
+// counts the turns until its last lane leaves it, and one for each time that the vector comes to it. No kernel takes more than TURN_BUDGET turns
+// in a dispatch: the loops of most have bounds, and layout.h bounds those of efforts.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +13,10 @@
 #include "shaders/layout.h"
 
 namespace wholehand::host {
+
+constexpr int TURN_BUDGET = 60000;
+constexpr int MOST_LANES = 16;      // of a vector: 512 bits of float
+constexpr int SELECT_LARGEST = 64;  // best grips that the device can select; the host selects more
 
 // What a loop of so many turns takes, with `inside` in the loops of each.
 constexpr std::int64_t loop_turns(std::int64_t turns, std::int64_t inside = 0) { return turns * (1 + inside) + 1; }

@@ -4,12 +4,10 @@
 #ifndef WHOLEHAND_LAYOUT_H
 #define WHOLEHAND_LAYOUT_H
 
+// RATIO: of whole numbers, in the includer's reals: a literal would be a float in GLSL.
 #ifdef __cplusplus
 #include <cstdint>
-#endif
 
-// A ratio of whole numbers in the includer's reals: a literal would be a float in GLSL.
-#ifdef __cplusplus
 #define RATIO(a, b) (double(a) / double(b))
 #else
 #define RATIO(a, b) (Real(a) / Real(b))
@@ -58,12 +56,7 @@
 #define LOOP_EULER 1                // explicit, at equal sub-steps
 #define LOOP_SEMI_IMPLICIT 2        // the place by the new speed
 
-// ---- turns of loops ----
-// Mesa's CPU driver ends every loop without a word after 65,535 turns of a vector of invocations, counted over all its loops together. A loop counts the
-// turns until its last lane leaves it, and one for each time that the vector comes to it. No kernel takes more than TURN_BUDGET turns in a
-// dispatch (host/turns.h): the loops of most have bounds. A grip whose efforts take more pivots than these is STATUS_OUT_OF_TURNS.
-#define TURN_BUDGET 60000
-#define MOST_LANES 16               // of a vector: 512 bits of float
+// ---- turns of loops, so few that TURN_BUDGET holds (host/turns.h); a grip whose efforts take more pivots is STATUS_OUT_OF_TURNS ----
 #define DEVICE_RISES 4              // of an effort: times that a grip looks for the state that its last lower bound bounds most
 #define EFFORT_TURNS 4000           // of a grip in a dispatch of the effort kernel
 #define RESERVE_TURNS 4100          // .. of the kernel of reserves,
@@ -139,52 +132,19 @@
 // FIELD_name (C++) and PLANE_name (GLSL). Shapes, units and meaning are in core/fields.cpp.
 // Reals: planes real_out[plane * n + grip], as many as the field's shape says.
 #define REAL_FIELD_LIST(X) \
-  X(T_INDEX, 0) \
-  X(T_THUMB, 1) \
-  X(GAP, 2) \
-  X(MIDPOINT, 3) \
-  X(CLOSURE, 4) \
-  X(CONTACT_ANGLES, 5) \
-  X(PHALANX_DEPTH, 6) \
-  X(PALM_DEPTH, 7) \
-  X(BONE_STRETCH, 8) \
-  X(JOINTS, 9) \
-  X(POSED, 10) \
-  X(PROXIES, 11) \
-  X(SEPARATION, 12) \
-  X(PEAK_FORCE, 13) \
-  X(PEAK_TILT, 14) \
-  X(LARGEST_HOLD, 15) \
-  X(SAFE_TILT, 16) \
-  X(SCORE, 17) \
-  X(TERMS, 18) \
-  X(PIVOT_LENGTH, 19) \
-  X(TORQUE, 20) \
-  X(EXACT_TORQUE, 21) \
-  X(NORMAL_FORCE, 22) \
-  X(FEEDBACK_FORCE, 23) \
-  X(HOLD_FORCE, 24) \
-  X(TABLE_DEPTH, 25) \
-  X(WORST_EFFORT, 26) \
-  X(WORST_EFFORT_FILL, 27) \
-  X(WORST_EFFORT_TILT, 28) \
-  X(TIPS_WORST_EFFORT, 29) \
-  X(PUSH, 30) \
-  X(FRICTION_NEEDED, 31) \
-  X(EFFORT, 32) \
-  X(EFFORT_LOW, 33) \
-  X(TIPS_EFFORT, 34) \
-  X(SELF_DEPTH, 35) \
-  X(WRIST_SHARE, 36)
+  X(T_INDEX, 0) X(T_THUMB, 1) X(GAP, 2) X(MIDPOINT, 3) X(CLOSURE, 4) X(CONTACT_ANGLES, 5) \
+  X(PHALANX_DEPTH, 6) X(PALM_DEPTH, 7) X(BONE_STRETCH, 8) X(JOINTS, 9) X(POSED, 10) X(PROXIES, 11) \
+  X(SEPARATION, 12) X(PEAK_FORCE, 13) X(PEAK_TILT, 14) X(LARGEST_HOLD, 15) X(SAFE_TILT, 16) \
+  X(SCORE, 17) X(TERMS, 18) X(PIVOT_LENGTH, 19) X(TORQUE, 20) X(EXACT_TORQUE, 21) \
+  X(NORMAL_FORCE, 22) X(FEEDBACK_FORCE, 23) X(HOLD_FORCE, 24) X(TABLE_DEPTH, 25) \
+  X(WORST_EFFORT, 26) X(WORST_EFFORT_FILL, 27) X(WORST_EFFORT_TILT, 28) X(TIPS_WORST_EFFORT, 29) \
+  X(PUSH, 30) X(FRICTION_NEEDED, 31) X(EFFORT, 32) X(EFFORT_LOW, 33) X(TIPS_EFFORT, 34) \
+  X(SELF_DEPTH, 35) X(WRIST_SHARE, 36)
 #define REAL_FIELDS 37
 // Words: uint_out[plane * n + grip], one plane each.
 #define UINT_FIELD_LIST(X) \
-  X(STATUS, REAL_FIELDS + 0) \
-  X(TOUCH_MASK, REAL_FIELDS + 1) \
-  X(TIP_MASK, REAL_FIELDS + 2) \
-  X(FINGER_MASK, REAL_FIELDS + 3) \
-  X(INNER_MASK, REAL_FIELDS + 4) \
-  X(USED_MASK, REAL_FIELDS + 5)
+  X(STATUS, REAL_FIELDS + 0) X(TOUCH_MASK, REAL_FIELDS + 1) X(TIP_MASK, REAL_FIELDS + 2) \
+  X(FINGER_MASK, REAL_FIELDS + 3) X(INNER_MASK, REAL_FIELDS + 4) X(USED_MASK, REAL_FIELDS + 5)
 #define FIELDS (REAL_FIELDS + 6)
 #ifdef __cplusplus
 #define DECLARE_FIELD(name, number) inline constexpr int FIELD_##name = number;
@@ -253,6 +213,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 
 // A state as the force kernel reads it: weight (N), the vessel's own share of the mass, lean of the centre of mass, and its height where the
 // vessel's own is on the axis; sine, cosine and angle of its tilt (angle -1: the state is left out), and the angle of the tilt before (-1: none).
+// A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for safe tilts, the angle of the tilt before (-1: none)
+// and the number of its fill, else the angle of its tilt and its fill as a fraction.
 #define STATE_STRIDE 8
 #define STATES_IN_BLOCK 256         // in double 16 KiB, the smallest uniform range that Vulkan grants
 
@@ -261,8 +223,6 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define PLACED_BEFORE 12
 #define PLACED_STRIDE 13
 
-// A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for safe tilts, the angle of the tilt before (-1: none)
-// and the number of its fill, else the angle of its tilt and its fill as a fraction.
 // Where a joint presses: the place on the surface and the inward normal there; both 0 where it does not. A sphere between joints has the place
 // of a joint of its digit that does not touch.
 #define CONTACT_STRIDE 6
@@ -312,7 +272,6 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define SELECT_FIRST_TO_SECOND 1
 #define SELECT_SECOND_TO_FIRST 2
 #define SELECT_SCORES_TO_SECOND 3
-#define SELECT_LARGEST 64           // best grips that the device can select; more are selected by the host
 
 // A vessel's and a scene's scalars, one uniform block. What branches on them alone costs time: lavapipe takes such numbers for constants, and may
 // compile the kernel anew in every dispatch.

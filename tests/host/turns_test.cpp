@@ -103,8 +103,8 @@ std::map<std::string, std::int64_t> turns_of(const Scene& scene, const FieldSet&
   const host::Buffer in = host::Buffer::of(program.on, axes),
                      real_out(program.on, program.real_planes * chunk.stride * sizeof(float)),
                      uint_out(program.on, program.fields.uint_planes * chunk.stride * sizeof(std::uint32_t)),
-                     scores(program.on, 2 * SELECT_LARGEST * sizeof(float)),
-                     indices(program.on, 2 * SELECT_LARGEST * sizeof(float));
+                     scores(program.on, 2 * host::SELECT_LARGEST * sizeof(float)),
+                     indices(program.on, 2 * host::SELECT_LARGEST * sizeof(float));
   host::Commands commands;
   commands.bind(BINDING_GRIPS, in);
   commands.bind(BINDING_REAL_OUT, real_out);
@@ -112,7 +112,7 @@ std::map<std::string, std::int64_t> turns_of(const Scene& scene, const FieldSet&
   commands.bind(BINDING_CANDIDATES, scores);
   commands.bind(BINDING_INDICES, indices);
   meter.bind(commands);
-  program.record(0, chunk, SELECT_LARGEST, NO_LEAST_SCORE, NO_LEAST_SCORE, commands);
+  program.record(0, chunk, host::SELECT_LARGEST, NO_LEAST_SCORE, NO_LEAST_SCORE, commands);
   std::map<std::string, std::int64_t> most;
   for (std::size_t step = 0; step < commands.steps().size(); ++step) {
     std::int64_t& turns = most[commands.steps()[step].kernel->name()];
@@ -126,7 +126,7 @@ void expect_bounds(const std::map<std::string, std::int64_t>& turns, const std::
     const auto bound = bounds.find(kernel);
     ASSERT_NE(bound, bounds.end()) << kernel << " has no bound";
     EXPECT_LE(taken, bound->second) << kernel;
-    EXPECT_LE(bound->second, TURN_BUDGET) << kernel;
+    EXPECT_LE(bound->second, host::TURN_BUDGET) << kernel;
     testing::Test::RecordProperty(kernel, std::to_string(taken));
   }
 }
@@ -134,7 +134,7 @@ void expect_bounds(const std::map<std::string, std::int64_t>& turns, const std::
 // Expects that a kernel took more turns than `least`, where the driver counts them. One that ends no loops leaves none to miss.
 void expect_worst(bool counts, std::int64_t turns, std::int64_t least, const std::string& kernel) {
   EXPECT_GE(turns, counts ? least + 1 : 0) << kernel << ": not its worst";
-  EXPECT_LE(turns, counts ? TURN_BUDGET : 0) << kernel;
+  EXPECT_LE(turns, counts ? host::TURN_BUDGET : 0) << kernel;
 }
 
 // A flask with 20 fills and 69 tilts, so that 256 states are in a dispatch. At two thirds of its height its pinch takes thousands of solves.
@@ -293,8 +293,8 @@ TEST(Turns, EffortsEndWithinTheirBounds) {
                           {"effort", host::effort_turns(20)},
                           {"reserve", host::reserve_turns()},
                           {"score", host::score_turns(20)},
-                          {"select", host::select_turns(SELECT_LARGEST)}});
-    expect_worst(counts, turns.at("reserve"), TURN_BUDGET / 2, "reserve");
+                          {"select", host::select_turns(host::SELECT_LARGEST)}});
+    expect_worst(counts, turns.at("reserve"), host::TURN_BUDGET / 2, "reserve");
   }
 }
 
@@ -317,12 +317,12 @@ TEST(Turns, GripsEndWithinTheirBounds) {
       bool counts = false;
       const auto turns = turns_of(scene, make_field_set(wanted, scene), grips, options, counts);
       const host::GripLoops loops{is_looped ? MAX_OUTLINE : 0, MOST_BETWEEN, proxies, ARM_AZIMUTHS};
-      expect_bounds(turns, {{"closure", is_looped ? TURN_BUDGET : host::closure_turns({}, loops)},
-                            {"rest", is_looped ? TURN_BUDGET : host::rest_turns({}, loops)},
+      expect_bounds(turns, {{"closure", is_looped ? host::TURN_BUDGET : host::closure_turns({}, loops)},
+                            {"rest", is_looped ? host::TURN_BUDGET : host::rest_turns({}, loops)},
                             {"contact", host::contact_turns(loops)},
                             {"overlap", host::overlap_turns(loops)},
                             {"score", host::score_turns(1)},
-                            {"select", host::select_turns(SELECT_LARGEST)}});
+                            {"select", host::select_turns(host::SELECT_LARGEST)}});
       expect_worst(counts, turns.at("closure"), tolerance < 1e-20 ? TRACE_STEPS / 2 : 10, "closure");
       expect_worst(counts, turns.at("rest"), 100, "rest");
     }
@@ -340,20 +340,22 @@ TEST(Turns, SelectionsEndWithinTheirBounds) {
   std::iota(scores.begin(), scores.end(), 1.0f);
   const host::Buffer score = host::Buffer::of(on, scores);
   const host::Buffer status = host::Buffer::of(on, std::vector<std::uint32_t>(SELECT_ENTRIES, STATUS_PLAUSIBLE));
-  const host::Buffer candidates(on, 2 * SELECT_LARGEST * sizeof(float)), indices(on, 2 * SELECT_LARGEST * sizeof(std::uint32_t));
+  const host::Buffer candidates(on, 2 * host::SELECT_LARGEST * sizeof(float)),
+      indices(on, 2 * host::SELECT_LARGEST * sizeof(std::uint32_t));
   host::Commands commands;
   meter.bind(commands);
   commands.bind(BINDING_REAL_OUT, score);
   commands.bind(BINDING_UINT_OUT, status);
   commands.bind(BINDING_CANDIDATES, candidates);
   commands.bind(BINDING_INDICES, indices);
-  const Push push{SELECT_ENTRIES, SELECT_ENTRIES, SELECT_SCORES_TO_FIRST, SELECT_LARGEST, std::bit_cast<std::uint32_t>(-1.0f)};
+  const Push push{SELECT_ENTRIES, SELECT_ENTRIES, SELECT_SCORES_TO_FIRST, host::SELECT_LARGEST,
+                  std::bit_cast<std::uint32_t>(-1.0f)};
   commands.dispatch(kernel, host::groups_for(on, kernel, 1), push);
   const std::int64_t turns = meter.turns(commands);
-  EXPECT_LE(turns, host::select_turns(SELECT_LARGEST));
-  expect_worst(meter.counts(), turns, SELECT_ENTRIES * (SELECT_LARGEST - 1), "select");
-  const auto best = indices.read_as<std::uint32_t>(SELECT_LARGEST);
-  for (std::uint32_t k = 0; k < SELECT_LARGEST; ++k) EXPECT_EQ(best[k], SELECT_ENTRIES - 1 - k);
+  EXPECT_LE(turns, host::select_turns(host::SELECT_LARGEST));
+  expect_worst(meter.counts(), turns, SELECT_ENTRIES * (host::SELECT_LARGEST - 1), "select");
+  const auto best = indices.read_as<std::uint32_t>(host::SELECT_LARGEST);
+  for (std::uint32_t k = 0; k < host::SELECT_LARGEST; ++k) EXPECT_EQ(best[k], SELECT_ENTRIES - 1 - k);
 }
 
 // The most pieces that a device integrates, at every tilt at once: lanes have their liquid in different parts of a piece.
@@ -365,7 +367,7 @@ TEST(Turns, LiquidsEndWithinTheirBounds) {
   host::GripProgram program(wet, host::make_scene_arrays(wet, *core, {}), *core, fields, "vulkan", {});
   const host::SceneArrays arrays = host::make_scene_arrays(wet, *core, {});
   const int pieces = arrays.vessels[0].cavity_count;
-  EXPECT_LE(host::liquid_turns(pieces, points), TURN_BUDGET);
+  EXPECT_LE(host::liquid_turns(pieces, points), host::TURN_BUDGET);
   const auto work = program.liquid_work(0, arrays);
   Meter own(program.on);
   for (const std::string name : {"lip", "liquid"}) {

@@ -19,6 +19,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 #include "host/shaders.h"
+#include "host/turns.h"
 
 namespace wholehand {
 namespace {
@@ -129,7 +130,7 @@ TEST(Layout, GroupSizesFitEveryDevice) {
   EXPECT_EQ(GROUP_SIZE & (GROUP_SIZE - 1), 0);
 }
 
-TEST(Layout, SelectionLeavesLessInEachPass) { EXPECT_GT(SELECT_ENTRIES, SELECT_LARGEST); }
+TEST(Layout, SelectionLeavesLessInEachPass) { EXPECT_GT(SELECT_ENTRIES, host::SELECT_LARGEST); }
 
 // ---- structs: offsets in C++ against those that the SPIR-V carries ----
 

@@ -12,6 +12,7 @@
 #include "core/fields.h"
 #include "core/gather.h"
 #include "host/grip_backend.h"
+#include "host/turns.h"
 #include "shaders/status.h"
 #include "tests/support/scenes.h"
 #include "tests/support/whole_parity.h"
@@ -192,10 +193,10 @@ TEST(ParityEffort, TheDeviceChoosesNoGripThatDoesNotHold) {
       not_held += is_plausible(planes.uint(FIELD_STATUS, i)) && !is_eligible(planes.uint(FIELD_STATUS, i)) ? 1 : 0;
     }
     EXPECT_GT(not_held, 20u);
-    EXPECT_LT(held, std::size_t{SELECT_LARGEST});
+    EXPECT_LT(held, std::size_t{host::SELECT_LARGEST});
     RunRequest request;
     request.last = grips.size();
-    request.best = SELECT_LARGEST;  // room for more than hold
+    request.best = host::SELECT_LARGEST;  // room for more than hold
     request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
       std::copy_n(grips.begin() + static_cast<std::ptrdiff_t>(first), count, out);
     };
