@@ -4,16 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/trig.h"
-
 namespace CORE_NS {
-
-Vec3 grip_direction(Real azimuth, Real obliquity) {
-  Real sa = 0, ca = 0, sb = 0, cb = 0;
-  sine_cosine(azimuth, sa, ca);
-  sine_cosine(obliquity, sb, cb);
-  return Vec3(cb * ca, sb, -cb * sa);
-}
 
 // Sphere tracing from a sphere that holds the vessel: sdf - radius is a lower bound of the way to go, so no first touch is passed
 // over; so is the way to the nearest element's tangent plane, as long as no other element is met before it. The line leaves the bounds

@@ -4,6 +4,7 @@
 
 #include "core/hand.h"
 #include "core/sdf.h"
+#include "core/trig.h"
 
 namespace CORE_NS {
 
@@ -42,8 +43,6 @@ struct Closing {
   int steps = 0;  // of the longer trace
 };
 
-// Thumb-to-index direction Ry(azimuth) Rz(obliquity) (1, 0, 0).
-Vec3 grip_direction(Real azimuth, Real obliquity);
 // First t along `direction` from `origin`, coming from outside, at which the distance is `radius`. `heading` is +1 for the index
 // (from +infinity) and -1 for the thumb.
 Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading, Real radius);

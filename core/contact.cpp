@@ -25,23 +25,6 @@ Vec3 proxy_of(const Vessel& vessel, Vec3 p, Real radius, bool& settled) {
   return proxy;
 }
 
-Contact contact_at(const Vessel& vessel, Vec3 p, Real radius) {
-  Contact contact;
-  contact.separation = separation_at(vessel, p, radius);
-  contact.proxy = p;
-  if (contact.separation < 0) contact.proxy = proxy_of(vessel, p, radius, contact.settled);
-  return contact;
-}
-
-// q = x - sdf(x) grad sdf(x); n = -grad sdf(x): with an exact distance its gradient at the nearest point is that at x.
-bool presses_at(const Vessel& vessel, Vec3 p, Vec3& place, Vec3& normal) {
-  int element = -1;
-  const Vec3 outward = distance_gradient(vessel, p, element);
-  place = p - signed_distance(vessel, p) * outward;
-  normal = -outward;
-  return vessel.lid < 0 || element != vessel.lid;
-}
-
 // The lid begins at the mouth's edge, where the wall ends.
 bool is_undecided(const Vessel& vessel, Vec3 p, Real separation, Real tolerance) {
   if (std::abs(separation - tolerance) <= Real(CONTACT_MARGIN)) return true;

@@ -6,22 +6,10 @@
 
 namespace CORE_NS {
 
-// A point's contact: separation sdf - radius (m), and its proxy.
-struct Contact {
-  Real separation = 0;
-  Vec3 proxy{};         // the point itself where it does not penetrate
-  bool settled = true;  // false: the proxy took all its steps
-};
-
 // Distance from the skin of a point of `radius` m at p to the surface, m; negative: penetrates.
 Real separation_at(const Vessel& vessel, Vec3 p, Real radius);
 // p moved along the outward normal, evaluated anew each step, until the separation is 0 to the stop tolerance.
 Vec3 proxy_of(const Vessel& vessel, Vec3 p, Real radius, bool& settled);
-// The whole kernel for one point.
-Contact contact_at(const Vessel& vessel, Vec3 p, Real radius);
-// Where a point that touches presses: the surface's nearest place and the inward unit normal there. False: on the lid that closes the mouth of a
-// solid vessel, where nothing is.
-bool presses_at(const Vessel& vessel, Vec3 p, Vec3& place, Vec3& normal);
 // Whether rounding may decide if such a point is a contact: its separation is within CONTACT_MARGIN of the contact tolerance, or the point
 // is a contact above the mouth of a solid vessel and as near to where the lid begins.
 bool is_undecided(const Vessel& vessel, Vec3 p, Real separation, Real tolerance);

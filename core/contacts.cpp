@@ -10,6 +10,29 @@ namespace CORE_NS {
 using wholehand::finger_of;
 using wholehand::finger_start;
 
+namespace {
+
+// Where a point that touches presses: the surface's nearest place and the inward unit normal there, q = x - sdf(x) grad sdf(x) and
+// n = -grad sdf(x): with an exact distance its gradient at the nearest point is that at x. False: on the lid that closes the mouth of a solid
+// vessel, where nothing is.
+bool presses_at(const Vessel& vessel, Vec3 p, Vec3& place, Vec3& normal) {
+  int element = -1;
+  const Vec3 outward = distance_gradient(vessel, p, element);
+  place = p - signed_distance(vessel, p) * outward;
+  normal = -outward;
+  return vessel.lid < 0 || element != vessel.lid;
+}
+
+}  // namespace
+
+Contact contact_at(const Vessel& vessel, Vec3 p, Real radius) {
+  Contact contact;
+  contact.separation = separation_at(vessel, p, radius);
+  contact.proxy = p;
+  if (contact.separation < 0) contact.proxy = proxy_of(vessel, p, radius, contact.settled);
+  return contact;
+}
+
 int find_contacts(const Vessel& vessel, const std::array<Vec3, JOINTS>& posed, std::uint32_t touch_mask,
                   std::array<PressingJoint, JOINTS>& pressing) {
   int count = 0;

@@ -11,6 +11,13 @@
 
 namespace CORE_NS {
 
+// A point's contact: separation sdf - radius (m), and its proxy.
+struct Contact {
+  Real separation = 0;
+  Vec3 proxy{};         // the point itself where it does not penetrate
+  bool settled = true;  // false: the proxy took all its steps
+};
+
 // A joint that presses, or a sphere of the bone that ends at it, and where and how.
 struct PressingJoint {
   int joint = 0;
@@ -18,6 +25,8 @@ struct PressingJoint {
   ContactPoint contact;
 };
 
+// The contact of a point of `radius` m at p.
+Contact contact_at(const Vessel& vessel, Vec3 p, Real radius);
 // The joints of `touch_mask` (kernel 4: thumb and index tips always, the others within the contact tolerance) in their order: each at the
 // surface's nearest point, along the inward normal there. A metacarpal base belongs to the palm. A joint on the lid that closes the mouth of a
 // solid vessel presses on nothing. Returns how many there are.

@@ -31,16 +31,10 @@ Vec3 pour_direction(Vec3 direction, Real sense);
 Vec3 up_direction(Vec3 pour, Real sine_tilt, Real cosine_tilt);
 // Centre of mass of a load, m.
 Vec3 load_center(Load load, Vec3 pour);
-// Eq. (1): m g L sin(theta), N m.
-Real pendulum_torque(Real mass, Real gravity, Real pivot_length, Real sine_tilt);
-// Torque about the tilt direction, signed: > 0 topples further, N m.
-Real exact_pendulum_torque(Real mass, Real gravity, Vec3 arm, Vec3 pour, Real sine_tilt, Real cosine_tilt);
 // The torque at which the normal force has grown by its whole range, per grip: m g max(L, 5 mm), N m.
 Real grip_reference(Real mass, Real gravity, Real pivot_length);
 // F_base + F_range tau / tau_ref; F_base where tau_ref is 0. N.
 Real normal_force(Real base, Real range, Real torque, Real reference);
-// k_open (g_grasp - g), N; `squeeze` = g_grasp - g, m.
-Real opening_force(Real k_open, Real squeeze);
 // clamp(normal + opening, 0, max), N.
 Real feedback_force(Real normal, Real opening, Real max);
 // The longest lever that is none for contacts without torsion, m. `pivot_length`: from their middle to where the load acts, m.
@@ -48,10 +42,5 @@ Real longest_bare_lever(Real pivot_length);
 // The share of their strength that digits have where thumb and index finger lie `opening` apart, m: grip strength over the largest, as
 // measured on cylinders of four diameters. Linear between them; beyond the first and the last as there.
 Real strength_at(Real opening);
-// Grip force a finger that a soft-finger pinch needs, N.
-Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion);
-// Virtual coupling of a tip to its proxy before the grasp: K (proxy - tip) - B v_n along the surface's outward normal, never a pull
-// towards the surface. N, vessel frame; v: the tip's velocity, m/s.
-Vec3 coupling_force(Vec3 tip, Vec3 proxy, Vec3 normal, Vec3 velocity, Real stiffness, Real damping);
 
 }  // namespace CORE_NS

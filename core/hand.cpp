@@ -64,12 +64,6 @@ Vec3 tip_to_tip(const Hand& hand, Real closure, Vec3& slope) {
   return finger.tip - opposing.tip;
 }
 
-// g(c) = |T(c)|.
-Real gap_at(const Hand& hand, Real closure) {
-  Vec3 slope{};
-  return glm::length(tip_to_tip(hand, closure, slope));
-}
-
 // Newton on g(c) = gap with g' = T . T' / g. As g falls all the way, the table's cell brackets the answer; a step that leaves the
 // bracket is replaced by its middle.
 Real closure_of_gap(const Hand& hand, Real gap, Real tolerance) {

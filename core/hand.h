@@ -50,8 +50,11 @@ FingerPoints finger_points(FingerFrame frame, Vec3 mcp, Vec3 lengths, Vec3 angle
 FingerPoints thumb_points(FingerFrame frame, Vec3 lengths, Vec3 angles);
 // Thumb tip to index tip in the hand frame at scale 1, m, and its derivative by closure.
 Vec3 tip_to_tip(const Hand& hand, Real closure, Vec3& slope);
-// The gap g(c) at scale 1, m.
-Real gap_at(const Hand& hand, Real closure);
+// The gap g(c) = |T(c)| at scale 1, m.
+inline Real gap_at(const Hand& hand, Real closure) {
+  Vec3 slope{};
+  return glm::length(tip_to_tip(hand, closure, slope));
+}
 // The closure whose gap is `gap` (scale 1, m, within [g(1), g(0)]), to `tolerance` m: Newton from the table, kept in its bracket. With no
 // gap_steps the table's own value, interpolated.
 Real closure_of_gap(const Hand& hand, Real gap, Real tolerance);

@@ -12,6 +12,18 @@ Load load_with(const Vessel& vessel, Real liquid_mass, Real lean, Real height);
 // tau_ref of a vessel: its largest load upright, about the farther of base and mouth (heights in m), N m.
 Real object_reference(Load largest, Real gravity, Real base_height, Real mouth_height);
 
+// Eq. (1): m g L sin(theta), N m.
+Real pendulum_torque(Real mass, Real gravity, Real pivot_length, Real sine_tilt);
+// Torque about the tilt direction, signed: > 0 topples further, N m.
+Real exact_pendulum_torque(Real mass, Real gravity, Vec3 arm, Vec3 pour, Real sine_tilt, Real cosine_tilt);
+// k_open (g_grasp - g), N; `squeeze` = g_grasp - g, m.
+Real opening_force(Real k_open, Real squeeze);
+// Grip force a finger that a soft-finger pinch needs, N.
+Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion);
+// Virtual coupling of a tip to its proxy before the grasp: K (proxy - tip) - B v_n along the surface's outward normal, never a pull
+// towards the surface. N, vessel frame; v: the tip's velocity, m/s.
+Vec3 coupling_force(Vec3 tip, Vec3 proxy, Vec3 normal, Vec3 velocity, Real stiffness, Real damping);
+
 // Forces in N, torques in N m, lengths in m; `center` of mass in the vessel frame.
 struct HeldForces {
   Real pivot_length = 0, torque = 0, exact_torque = 0, normal = 0, opening = 0, feedback = 0, hold = 0;

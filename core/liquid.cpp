@@ -200,19 +200,4 @@ LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real v
   return state;
 }
 
-Slices revolved_element(const Quadrature& quadrature, const Element& element) {
-  Slices sum;
-  const Real middle = Real(0.5) * (element.a.y + element.b.y);
-  const Real half = Real(0.5) * (element.b.y - element.a.y);
-  if (half == 0) return sum;
-  for (int i = 0; i < quadrature.count; ++i) {
-    const Real y = middle - half * quadrature.cosine[i];
-    const Real r = element_radius(element, y);
-    const Real area = Real(2) * HALF_PI * r * r * (half * quadrature.weight[i]);
-    sum.volume += area;
-    sum.height += area * y;
-  }
-  return sum;
-}
-
 }  // namespace CORE_NS

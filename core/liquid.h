@@ -52,7 +52,5 @@ Real bottom_level(const Vessel& vessel, Real sine_tilt, Real cosine_tilt);
 // Liquid of a volume (m3, at most the lip's capacity) at rest; volume 0: the centre at the inner floor. The volume under the level
 // is right to LEVEL_TOLERANCE of the capacity; of a vessel that was loaded without liquid, whose capacity is 0, to rounding.
 LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real volume, Real sine_tilt, Real cosine_tilt);
-// Signed volume of revolution under an element, pi int r^2 dy from a to b, and its first moment by y (volume m3, height m4).
-Slices revolved_element(const Quadrature& quadrature, const Element& element);
 
 }  // namespace CORE_NS

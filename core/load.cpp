@@ -16,6 +16,21 @@ namespace CORE_NS {
 
 using wholehand::to_vec3;
 
+Slices revolved_element(const Quadrature& quadrature, const Element& element) {
+  Slices sum;
+  const Real middle = Real(0.5) * (element.a.y + element.b.y);
+  const Real half = Real(0.5) * (element.b.y - element.a.y);
+  if (half == 0) return sum;
+  for (int i = 0; i < quadrature.count; ++i) {
+    const Real y = middle - half * quadrature.cosine[i];
+    const Real r = element_radius(element, y);
+    const Real area = Real(2) * HALF_PI * r * r * (half * quadrature.weight[i]);
+    sum.volume += area;
+    sum.height += area * y;
+  }
+  return sum;
+}
+
 namespace {
 
 Vec2 to_vec2(const std::array<double, 2>& t) { return Vec2(Real(t[0]), Real(t[1])); }

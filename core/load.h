@@ -17,6 +17,8 @@ namespace CORE_NS {
 Hand load_hand(const wholehand::PreparedHand& prepared, const wholehand::HandData& data);
 Quadrature load_quadrature(const wholehand::PreparedQuadrature& prepared);
 Element load_element(const wholehand::PreparedElement& element);
+// Signed volume of revolution under an element, pi int r^2 dy from a to b, and its first moment by y (volume m3, height m4).
+Slices revolved_element(const Quadrature& quadrature, const Element& element);
 
 // `density` of the glass or its given mass; lip capacities at whole degrees where `with_liquid` and there is a cavity. The centre of mass is mirrored in x
 // for a left hand.

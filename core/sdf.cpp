@@ -89,12 +89,6 @@ Vec2 outward_of(const Element& element, Vec2 q, bool& at_end) {
   return at_end ? from_end : own;
 }
 
-Vec2 element_outward(const Element& element, Vec2 q, Real sign) {
-  bool at_end = false;
-  const Vec2 outward = outward_of(element, q, at_end);
-  return at_end ? sign * outward : outward;
-}
-
 bool element_convex(const Element& element, Vec2 q) {
   const bool up = element.b.y > element.a.y;
   return element.side == 0 || ((element.side > 0) == up && element_spans(element, q));

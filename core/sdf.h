@@ -92,7 +92,11 @@ bool element_spans(const Element& element, Vec2 q);
 // normal. at_end: q is nearest to an end, so that the direction turns round where q is inside.
 Vec2 outward_of(const Element& element, Vec2 q, bool& at_end);
 // The same outside (sign +1) or inside (-1).
-Vec2 element_outward(const Element& element, Vec2 q, Real sign);
+inline Vec2 element_outward(const Element& element, Vec2 q, Real sign) {
+  bool at_end = false;
+  const Vec2 outward = outward_of(element, q, at_end);
+  return at_end ? sign * outward : outward;
+}
 // Whether the element, seen from q outside, lies beyond its tangent plane at the nearest point.
 bool element_convex(const Element& element, Vec2 q);
 // Whether the whole outline does, by `supports` at the place of the nearest point.

@@ -6,10 +6,6 @@
 
 namespace CORE_NS {
 
-Real sine(Real angle) { return std::sin(angle); }
-
-Real cosine(Real angle) { return std::cos(angle); }
-
 void sine_cosine(Real angle, Real& sine_out, Real& cosine_out) {
   sine_out = std::sin(angle);
   cosine_out = std::cos(angle);
@@ -27,5 +23,12 @@ Real angle_between(Vec3 a, Vec3 b) {
 }
 
 Real direction_angle(Real y, Real x) { return std::atan2(y, x); }
+
+Vec3 grip_direction(Real azimuth, Real obliquity) {
+  Real sa = 0, ca = 0, sb = 0, cb = 0;
+  sine_cosine(azimuth, sa, ca);
+  sine_cosine(obliquity, sb, cb);
+  return Vec3(cb * ca, sb, -cb * sa);
+}
 
 }  // namespace CORE_NS

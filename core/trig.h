@@ -3,13 +3,15 @@
 // own sine only to 2^-11. That makes this pair the exception among the twins: same functions, different mathematics.
 #pragma once
 
+#include <cmath>
+
 #include "core/real.h"
 
 namespace CORE_NS {
 
 // Sine and cosine of an angle in rad, |angle| <= 16 (the shaders' range; every angle of a hand or grip is far inside).
-Real sine(Real angle);
-Real cosine(Real angle);
+inline Real sine(Real angle) { return std::sin(angle); }
+inline Real cosine(Real angle) { return std::cos(angle); }
 void sine_cosine(Real angle, Real& sine_out, Real& cosine_out);
 // Arc cosine in [0, pi]; arguments beyond [-1, 1] are clamped.
 Real arc_cosine(Real x);
@@ -17,5 +19,7 @@ Real arc_cosine(Real x);
 Real angle_between(Vec3 a, Vec3 b);
 // Angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0).
 Real direction_angle(Real y, Real x);
+// Thumb-to-index direction Ry(azimuth) Rz(obliquity) (1, 0, 0).
+Vec3 grip_direction(Real azimuth, Real obliquity);
 
 }  // namespace CORE_NS

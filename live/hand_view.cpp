@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact.h"
+#include "core/contacts.h"
 #include "core/joints.h"
 #include "core/mirror.h"
 #include "core/prepare.h"

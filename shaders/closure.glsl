@@ -28,13 +28,6 @@ struct Closing {
   Placement placement;
 };
 
-Vec3 grip_direction(Real azimuth, Real obliquity) {
-  Real sa, ca, sb, cb;
-  sine_cosine(azimuth, sa, ca);
-  sine_cosine(obliquity, sb, cb);
-  return Vec3(cb * ca, sb, -cb * sa);
-}
-
 Trace trace_tip(Vec3 origin, Vec3 direction, Real heading, Real radius) {
   Vec3 center = Vec3(Real(0), scene.bound_height, Real(0));
   Real middle = dot(center - origin, direction);

@@ -5,12 +5,6 @@
 
 #include "sdf.glsl"
 
-struct Contact {
-  Real separation;
-  Vec3 proxy;
-  bool settled;
-};
-
 Real separation_at(Vec3 p, Real radius) { return signed_distance(p) - radius; }
 
 Vec3 proxy_of(Vec3 p, Real radius, out bool settled) {
@@ -27,23 +21,6 @@ Vec3 proxy_of(Vec3 p, Real radius, out bool settled) {
   }
   settled = abs(separation_at(proxy, radius)) < STOP_TOLERANCE;
   return proxy;
-}
-
-Contact contact_at(Vec3 p, Real radius) {
-  Contact contact;
-  contact.separation = separation_at(p, radius);
-  contact.proxy = p;
-  contact.settled = true;
-  if (contact.separation < Real(0)) contact.proxy = proxy_of(p, radius, contact.settled);
-  return contact;
-}
-
-bool presses_at(Vec3 p, out Vec3 place, out Vec3 normal) {
-  int element = -1;
-  Vec3 outward = distance_gradient(p, element);
-  place = p - signed_distance(p) * outward;
-  normal = -outward;
-  return element != int(scene.lid);
 }
 
 bool is_undecided(Vec3 p, Real separation, Real tolerance) {

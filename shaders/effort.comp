@@ -49,13 +49,7 @@ void main() {
   is_safe = TASK == EFFORT_WORST && push.flag != 0u;
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
-  ONCE_IF(has_grip) {
-    load_contacts(grip);
-    Real sa, ca, sb, cb;
-    sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
-    sine_cosine(grip_axis(AXIS_OBLIQUITY, grip), sb, cb);
-    pour = pour_direction(Vec3(cb * ca, sb, -cb * sa), scene.pour_sense);
-  }
+  ONCE_IF(has_grip) load_contacts(grip);
   // the largest effort so far; one up to `enough` need not be known
   Real worst = Real(0);
   if (!is_safe && has_grip) {

@@ -116,6 +116,7 @@ void load_contacts(uint grip) {
     Real gap = real_out[uint(PLANE_GAP) * push.stride + grip];
     unit_force *= strength_at(gap - grip_axis(AXIS_HAND_SCALE, grip) * scene.tip_radii);
   }
+  pour = pour_direction(grip_direction(grip_axis(AXIS_AZIMUTH, grip), grip_axis(AXIS_OBLIQUITY, grip)), scene.pour_sense);
 }
 
 // h(u), and the point of Z where it is attained: of each digit the contact that does most, where it does more than nothing.

@@ -59,10 +59,7 @@ Held held_by(uint grip) {
   held.feasible = is_feasible(status);
   held.antipodal = (status & STATUS_ANTIPODAL) != 0u;
   // the frame of a tilt
-  Real sa, ca, sb, cb;
-  sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
-  sine_cosine(grip_axis(AXIS_OBLIQUITY, grip), sb, cb);
-  Vec3 direction = Vec3(cb * ca, sb, -cb * sa);
+  Vec3 direction = grip_direction(grip_axis(AXIS_AZIMUTH, grip), grip_axis(AXIS_OBLIQUITY, grip));
   Vec3 pour = held.feasible ? pour_direction(direction, scene.pour_sense) : Vec3(1, 0, 0);
   Vec3 beside = cross(Vec3(0, 1, 0), pour);
   uint at = uint(PLANE_MIDPOINT) * push.stride + grip;

@@ -68,11 +68,6 @@ Vec3 tip_to_tip(Real closure, out Vec3 slope) {
   return finger.tip - opposing.tip;
 }
 
-Real gap_at(Real closure) {
-  Vec3 slope;
-  return length(tip_to_tip(closure, slope));
-}
-
 Real closure_of_gap(Real gap, Real tolerance) {
   Real span = HAND_GAP_OPEN - HAND_GAP_CLOSED;
   Real place = clamp((HAND_GAP_OPEN - gap) / span, Real(0), Real(1)) * Real(GAP_ENTRIES - 1);

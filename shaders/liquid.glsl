@@ -186,19 +186,4 @@ LiquidState liquid_at(Real volume, Real sine_tilt, Real cosine_tilt) {
   return state;
 }
 
-Slices revolved_element(Element element) {
-  Slices sum = Slices(Real(0), Real(0), Real(0), Real(0));
-  Real middle = Real(0.5) * (element.a.y + element.b.y);
-  Real half_height = Real(0.5) * (element.b.y - element.a.y);
-  if (half_height == Real(0)) return sum;
-  for (int i = 0; i < QUADRATURE_COUNT; ++i) {
-    Real y = middle - half_height * quadrature_cosine(i);
-    Real r = element_radius(element, y);
-    Real area = Real(2) * HALF_PI * r * r * (half_height * quadrature_weight(i));
-    sum.volume += area;
-    sum.height += area * y;
-  }
-  return sum;
-}
-
 #endif

@@ -83,13 +83,7 @@ bool is_busy(uint grip) {
 void main() {
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
-  ONCE_IF(has_grip) {
-    load_contacts(grip);
-    Real sa, ca, sb, cb;
-    sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
-    sine_cosine(grip_axis(AXIS_OBLIQUITY, grip), sb, cb);
-    pour = pour_direction(Vec3(cb * ca, sb, -cb * sa), scene.pour_sense);
-  }
+  ONCE_IF(has_grip) load_contacts(grip);
   // the friction begins where the worst state's direction puts it, and goes on there in the blocks that follow
   uint hardest = 0u;
   bool is_first = TASK == EFFORT_FRICTION && push.first == 0u;

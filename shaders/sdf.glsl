@@ -91,12 +91,6 @@ Vec2 outward_of(Element element, Vec2 q, out bool at_end) {
   return at_end ? from_end : own;
 }
 
-Vec2 element_outward(Element element, Vec2 q, Real sign) {
-  bool at_end;
-  Vec2 outward = outward_of(element, q, at_end);
-  return at_end ? sign * outward : outward;
-}
-
 bool element_convex(Element element, Vec2 q) {
   bool up = element.b.y > element.a.y;
   return element.side == 0 || ((element.side > 0) == up && element_spans(element, q));

@@ -7,20 +7,6 @@
 
 #include "real.glsl"
 
-void sine_cosine(Real angle, out Real sine_out, out Real cosine_out);
-
-Real sine(Real angle) {
-  Real s, c;
-  sine_cosine(angle, s, c);
-  return s;
-}
-
-Real cosine(Real angle) {
-  Real s, c;
-  sine_cosine(angle, s, c);
-  return c;
-}
-
 void sine_cosine(Real angle, out Real sine_out, out Real cosine_out) {
   precise Real turns = roundEven(angle * (Real(1) / HALF_PI));
 #if REAL_IS_DOUBLE
@@ -82,6 +68,13 @@ Real direction_angle(Real y, Real x) {
   Real acute = abs(y) > abs(x) ? HALF_PI - arc_sine : arc_sine;
   Real angle = x < Real(0) ? Real(2) * HALF_PI - acute : acute;
   return y < Real(0) ? -angle : angle;
+}
+
+Vec3 grip_direction(Real azimuth, Real obliquity) {
+  Real sa, ca, sb, cb;
+  sine_cosine(azimuth, sa, ca);
+  sine_cosine(obliquity, sb, cb);
+  return Vec3(cb * ca, sb, -cb * sa);
 }
 
 #endif

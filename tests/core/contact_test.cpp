@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contacts.h"
 #include "core/evaluator.h"
 #include "core/joints.h"
 #include "core/vectors.h"

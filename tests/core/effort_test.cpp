@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/force.h"
+#include "core/held.h"
 #include "core/scene.h"
 
 namespace wholehand {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/held.h"
 #include "tests/support/scenes.h"
 #include "tests/support/special_values.h"
 #include "tests/support/vectors.h"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/effort.h"
-#include "core/force.h"
+#include "core/held.h"
 #include "core/joints.h"
 #include "core/load.h"
 #include "core/prepare.h"

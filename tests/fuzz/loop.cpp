@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/force.h"
+#include "core/held.h"
 #include "core/loop.h"
 #include "tests/fuzz/must.h"
 

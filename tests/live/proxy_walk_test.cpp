@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/force.h"
+#include "core/held.h"
 #include "tests/support/scenes.h"
 #include "tests/support/tabletop.h"
 

@@ -36,10 +36,9 @@ TEST_F(ParityLeaf, CircularSegments) {
 
 TEST_F(ParityLeaf, LiquidInOnePiece) {
   const Scene scene = vessels_scene();
-  Builder radii(140), crossings(141), pieces(142), revolved(143);
+  Builder radii(140), crossings(141), pieces(142);
   for (const VesselData& vessel : scene.vessels) {
     for (const PreparedElement& element : prepare_vessel(vessel, true).cavity) {
-      revolved.element(element);
       for (int i = 0; i < 21; ++i) radii.element(element).add(element.a[1] + (element.b[1] - element.a[1]) * i / 20.0);
       for (int i = 0; i < 12; ++i) {
         const double tilt = i == 0 ? 0 : i == 1 ? PI / 2 : i == 2 ? PI : crossings.random.uniform(1e-3, PI - 1e-3);
@@ -74,13 +73,6 @@ TEST_F(ParityLeaf, LiquidInOnePiece) {
            .fixed = {7},
            .takes = rises},
           pieces.table, scene);
-  compare({.shader = "probe_liquid",
-           .probe = PROBE_REVOLVED,
-           .inputs = 8,
-           .outputs = {{"volume", volume}, {"height", moment}},
-           .fixed = {7},
-           .takes = rises},
-          revolved.table, scene);
 }
 
 // Between the heights at which the plane meets a piece's wall, as piece_below asks; full, dry and empty stretches among them.
@@ -176,7 +168,7 @@ TEST_F(ParityLeaf, LiquidInTheCavity) {
 
 TEST_F(ParityLeaf, Force) {
   const Scene scene = three_beakers();
-  Builder directions(170), centers(171), torques(172), forces(173), holds(174), couplings(175), openings(176);
+  Builder directions(170), centers(171), references(172), forces(173), openings(176);
   for (int i = 0; i < 555; ++i) {
     const double tilt = i % 9 == 0 ? 0 : directions.random.uniform(0, PI), s = std::sin(tilt), c = std::cos(tilt);
     const double azimuth = directions.random.uniform(-PI, PI), obliquity = directions.random.uniform(-1, 1);
@@ -184,39 +176,21 @@ TEST_F(ParityLeaf, Force) {
     const Triple pour{-std::sin(azimuth), 0, -std::cos(azimuth)};
     directions.vec(d).add(i % 2 == 0 ? 1 : -1).add(s).add(c);
     centers.point(0.1).uniform(-0.05, 0.05).uniform(0, 0.1).vec(pour);
-    torques.uniform(0.05, 0.6).add(9.80665).uniform(0, 0.1).point(0.1).vec(pour).add(s).add(c);
+    references.uniform(0.05, 0.6).add(9.80665).uniform(0, 0.1);
     forces.uniform(0, 2)
         .uniform(0, 5)
         .uniform(0, 0.5)
         .add(i % 11 == 0 ? 0 : forces.random.uniform(0.1, 0.5))
-        .uniform(0, 900)
-        .uniform(-5e-3, 5e-3)
+        .uniform(-4.5, 4.5)
         .uniform(1, 8);
-    holds.uniform(0.05, 0.6)
-        .add(9.80665)
-        .point(0.1)
-        .vec(d)
-        .vec({-s * pour[0], c, -s * pour[2]})
-        .add(i % 13 == 0 ? 0 : holds.random.uniform(0.3, 0.9))
-        .add(i % 17 == 0 ? 0 : holds.random.uniform(2e-3, 9e-3));
     openings.uniform(0, 0.12);
-    couplings.point(0.1).point(0.1).vec(couplings.direction()).point(1).uniform(0, 900).uniform(0, 5);
   }
   compare({.shader = "probe_force", .probe = PROBE_DIRECTIONS, .inputs = 6, .outputs = repeated("direction", 6, 1), .fixed = {3}},
           directions.table, scene);
   compare({"probe_force", PROBE_LOAD_CENTER, 8, repeated("coordinate", 3, REACH)}, centers.table, scene);
-  compare({"probe_force", PROBE_TORQUES, 11, repeated("torque", 3, 0.6 * 9.80665 * 0.2)}, torques.table, scene);
-  compare({"probe_force", PROBE_FORCES, 7, {{"normal", 30}, {"opening", 5}, {"feedback", 30}}}, forces.table, scene);
-  // largest: its weight over the smallest friction times the arm over the smallest torsion
-  // one row in eight has no friction or no torsion, from where the smallest move is out of the infinite
-  compare({.shader = "probe_force",
-           .probe = PROBE_HOLD_FORCE,
-           .inputs = 13,
-           .outputs = {{"hold", 6 * 0.2 / (2 * 2e-3) / 0.3}},
-           .sharp_share = 0.8},
-          holds.table, scene);
+  compare({"probe_force", PROBE_REFERENCE, 3, {{"torque", 0.6 * 9.80665 * 0.2}}}, references.table, scene);
+  compare({"probe_force", PROBE_FORCES, 6, {{"normal", 30}, {"feedback", 30}}}, forces.table, scene);
   compare({"probe_force", PROBE_STRENGTH_AT, 1, {{"share", 1}}}, openings.table, scene);
-  compare({"probe_force", PROBE_COUPLING_FORCE, 14, repeated("force", 3, 900 * 0.4)}, couplings.table, scene);
 }
 
 TEST_F(ParityLeaf, Score) {

@@ -15,23 +15,13 @@ void main() {
     answer3(3, up_direction(pour, given(4), given(5)));
   }
   if (PROBE == PROBE_LOAD_CENTER) answer3(0, load_center(Load(Real(1), given3(0), given(3), given(4)), given3(5)));
-  if (PROBE == PROBE_TORQUES) {
-    answer(0, pendulum_torque(given(0), given(1), given(2), given(9)));
-    answer(1, exact_pendulum_torque(given(0), given(1), given3(3), given3(6), given(9), given(10)));
-    answer(2, grip_reference(given(0), given(1), given(2)));
-  }
+  if (PROBE == PROBE_REFERENCE) answer(0, grip_reference(given(0), given(1), given(2)));
   if (PROBE == PROBE_FORCES) {
     Real normal = normal_force(given(0), given(1), given(2), given(3));
-    Real opening = opening_force(given(4), given(5));
     answer(0, normal);
-    answer(1, opening);
-    answer(2, feedback_force(normal, opening, given(6)));
+    answer(1, feedback_force(normal, given(4), given(5)));
   }
-  if (PROBE == PROBE_HOLD_FORCE)
-    answer(0, hold_force(given(0), given(1), given3(2), given3(5), given3(8), given(11), given(12)));
   if (PROBE == PROBE_STRENGTH_AT) answer(0, strength_at(given(0)));
-  if (PROBE == PROBE_COUPLING_FORCE)
-    answer3(0, coupling_force(given3(0), given3(3), given3(6), given3(9), given(12), given(13)));
   if (PROBE == PROBE_SCORE) {
     answer(0, fingers_term(given_int(0)));
     answer(1, contacts_term(given_int(1)));

@@ -26,9 +26,10 @@ void main() {
   if (PROBE == PROBE_SEGMENT_END) answer3(0, segment_end(given_frame(0), given3(9), given(12), given(13)));
   if (PROBE == PROBE_TIP_TO_TIP) {
     Vec3 slope;
-    answer3(0, tip_to_tip(given(0), slope));
+    Vec3 way = tip_to_tip(given(0), slope);
+    answer3(0, way);
     answer3(3, slope);
-    answer(6, gap_at(given(0)));
+    answer(6, length(way));
   }
   if (PROBE == PROBE_CLOSURE_OF_GAP) answer(0, closure_of_gap(given(0), STOP_TOLERANCE));
 }

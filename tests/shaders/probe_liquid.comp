@@ -42,9 +42,4 @@ void main() {
     answer(1, liquid.lean);
     answer(2, liquid.height);
   }
-  if (PROBE == PROBE_REVOLVED) {
-    Slices slices = revolved_element(given_element());
-    answer(0, slices.volume);
-    answer(1, slices.height);
-  }
 }

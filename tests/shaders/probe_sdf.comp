@@ -31,15 +31,18 @@ void main() {
     answer(0, safe_step(support, given(6), given3(7), given(10), given(11)));
   }
   if (PROBE == PROBE_CONTACT) {
-    Contact contact = contact_at(given3(0), given(3));
-    answer(0, contact.separation);
-    answer3(1, contact.proxy);
-    answer(4, Real(contact.settled));
+    Real separation = separation_at(given3(0), given(3));
+    bool settled = true;
+    answer(0, separation);
+    answer3(1, separation < Real(0) ? proxy_of(given3(0), given(3), settled) : given3(0));
+    answer(4, Real(settled));
   }
   if (PROBE == PROBE_ELEMENT) {
     Element element = given_element();
     Vec2 q = given2(8);
-    Vec2 outward = element_outward(element, q, given(10));
+    bool at_end;
+    Vec2 outward = outward_of(element, q, at_end);
+    if (at_end) outward *= given(10);
     answer(0, sqrt(element_distance_squared(element, q)));
     answer(1, Real(element_crosses(element, q)));
     answer(2, Real(element_spans(element, q)));

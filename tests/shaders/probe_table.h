@@ -61,17 +61,14 @@
 #define PROBE_PIECE_BELOW 64       // element, level, sine, cosine; volume, lean, height, surface
 #define PROBE_LIP_CAPACITY 65      // sine, cosine; lip level, bottom level, capacity
 #define PROBE_LIQUID_AT 66         // volume, sine, cosine; volume, lean, height
-#define PROBE_REVOLVED 67          // element; volume, height
 #define PROBE_INTEGRATE_SLICES 68  // element, low, high, level, sine, cosine; volume, lean, height, surface
 #define PROBE_LIQUID_BELOW 69      // level, sine, cosine; volume, lean, height, surface
 // probe_force
-#define PROBE_DIRECTIONS 80      // direction, sense, sine, cosine; pour, up
-#define PROBE_LOAD_CENTER 81     // fixed, lean, height, pour; center
-#define PROBE_TORQUES 82         // mass, gravity, length, arm, pour, sine, cosine; paper's, exact, reference
-#define PROBE_FORCES 83          // base, range, torque, reference, k_open, squeeze, max; normal, opening, feedback
-#define PROBE_HOLD_FORCE 84      // mass, gravity, arm, direction, up, friction, torsion; force
-#define PROBE_COUPLING_FORCE 85  // tip, proxy, normal, velocity, stiffness, damping; force
-#define PROBE_STRENGTH_AT 87     // opening; share
+#define PROBE_DIRECTIONS 80   // direction, sense, sine, cosine; pour, up
+#define PROBE_LOAD_CENTER 81  // fixed, lean, height, pour; center
+#define PROBE_REFERENCE 82    // mass, gravity, length; torque
+#define PROBE_FORCES 83       // base, range, torque, reference, opening, max; normal, feedback
+#define PROBE_STRENGTH_AT 87  // opening; share
 #define PROBE_SCORE 86  // fingers, points, phalanx, palm, closure, feedback, max, hold, strength, wrist; terms, posture with it
 // probe_loop; plant: mass, damping, stiffness; wall: stiffness, damping, period, encoder step, force limit, delay, bilateral
 #define PROBE_PROPAGATOR 90   // plant, time; of place, of speed: place, speed, force

@@ -14,6 +14,7 @@
 #include "core/body.h"
 #include "core/closure.h"
 #include "core/contact.h"
+#include "core/contacts.h"
 #include "core/effort.h"
 #include "core/force.h"
 #include "core/liquid.h"
@@ -289,24 +290,14 @@ std::tuple<Vec3, bool, bool> whole_motion(const Hand& hand, const Vessel& vessel
   return {resting.angles, resting.blocked, resting.unsettled};
 }
 
-std::tuple<Real, Real> revolved(const Quadrature& quadrature, const Element& element) {
-  const Slices slices = revolved_element(quadrature, element);
-  return {slices.volume, slices.height};
-}
-
 std::tuple<Vec3, Vec3> directions(Vec3 direction, Real sense, Real sine, Real cosine) {
   const Vec3 pour = pour_direction(direction, sense);
   return {pour, up_direction(pour, sine, cosine)};
 }
 
-std::tuple<Real, Real, Real> torques(Real mass, Real gravity, Real length, Vec3 arm, Vec3 pour, Real sine, Real cosine) {
-  return {pendulum_torque(mass, gravity, length, sine), exact_pendulum_torque(mass, gravity, arm, pour, sine, cosine),
-          grip_reference(mass, gravity, length)};
-}
-
-std::tuple<Real, Real, Real> forces(Real base, Real range, Real torque, Real reference, Real k_open, Real squeeze, Real max) {
-  const Real normal = normal_force(base, range, torque, reference), opening = opening_force(k_open, squeeze);
-  return {normal, opening, feedback_force(normal, opening, max)};
+std::tuple<Real, Real> forces(Real base, Real range, Real torque, Real reference, Real opening, Real max) {
+  const Real normal = normal_force(base, range, torque, reference);
+  return {normal, feedback_force(normal, opening, max)};
 }
 
 std::tuple<Real, Real, Real, Real, Real, Real, Real> score_terms(int fingers, int points, Real phalanx, Real palm, Real closure,
@@ -399,15 +390,12 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_LIQUID_BELOW, answers_of<liquid_below>},
     {PROBE_LIP_CAPACITY, answers_of<lip_level, bottom_level, lip_capacity>},
     {PROBE_LIQUID_AT, answers_of<liquid_at>},
-    {PROBE_REVOLVED, answers_of<revolved>},
     // force and score
     {PROBE_DIRECTIONS, answers_of<directions>},
     {PROBE_LOAD_CENTER, answers_of<load_center>},
-    {PROBE_TORQUES, answers_of<torques>},
+    {PROBE_REFERENCE, answers_of<grip_reference>},
     {PROBE_FORCES, answers_of<forces>},
-    {PROBE_HOLD_FORCE, answers_of<hold_force>},
     {PROBE_STRENGTH_AT, answers_of<strength_at>},
-    {PROBE_COUPLING_FORCE, answers_of<coupling_force>},
     {PROBE_SCORE, answers_of<score_terms>},
     // loop
     {PROBE_PROPAGATOR, answers_of<propagator>},
