@@ -135,10 +135,7 @@ Real support(Six direction, out Six point) {
       normal = is_more ? normal_here : normal;
     }
     if (ends_digit(k)) {
-      Six wrench = pressed(arm, normal, friction, gamma, direction);
-      Real share = share_of(digit_in_order(k));
-      point.first += share * wrench.first;
-      point.second += share * wrench.second;
+      point = plus(point, share_of(digit_in_order(k)), pressed(arm, normal, friction, gamma, direction));
       most = Real(0);
       arm = normal = Vec3(0);
     }

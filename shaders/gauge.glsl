@@ -25,6 +25,12 @@ struct Six {
   Vec3 first, second;
 };
 
+Real dot6(Six a, Six b) { return dot(a.first, b.first) + dot(a.second, b.second); }
+Six times(Real share, Six a) { return Six(share * a.first, share * a.second); }
+Six plus(Six a, Real share, Six b) { return Six(a.first + share * b.first, a.second + share * b.second); }
+Six chosen(bool is_a, Six a, Six b) { return Six(is_a ? a.first : b.first, is_a ? a.second : b.second); }
+Real value_of(int k, Six six) { return k < 3 ? six.first[k] : six.second[k - 3]; }
+
 struct Cost {
   Real real, artificial, least;
 };
@@ -66,16 +72,9 @@ Six columns[7];
 
 Six column(int c) { return columns[c]; }
 
-void set_column(int c, Six six, bool is_set) {
-  columns[c].first = is_set ? six.first : columns[c].first;
-  columns[c].second = is_set ? six.second : columns[c].second;
-}
+void set_column(int c, Six six, bool is_set) { columns[c] = chosen(is_set, six, columns[c]); }
 
 #endif
-
-Real dot6(Six a, Six b) { return dot(a.first, b.first) + dot(a.second, b.second); }
-
-Real value_of(int k, Six six) { return k < 3 ? six.first[k] : six.second[k - 3]; }
 
 Real press(Vec3 arm, Vec3 normal, Real friction, Real gamma, Six direction) {
   Vec3 velocity = direction.first + cross(direction.second, arm);
@@ -111,7 +110,7 @@ void restart(Six wanted, Real rounding, bool anew, bool warm) {
   Real scale = square > Real(0) ? Real(2) / square : Real(0);
   UNROLL for (int r = 0; r < 6; ++r) {
     Real along = value_of(r, mirror) * scale;
-    Six mirrored = Six(-along * mirror.first, -along * mirror.second);
+    Six mirrored = times(-along, mirror);
     if (r < 3) {
       mirrored.first[r < 3 ? r : 0] += Real(1);
     } else {
@@ -121,9 +120,8 @@ void restart(Six wanted, Real rounding, bool anew, bool warm) {
     Real sense = is_turned ? Real(-1) : Real(1);
     basis.is_artificial[r] = basis.is_artificial[r] || is_turned || anew;
     Six before = column(r);
-    set_column(r, Six(anew ? mirrored.first : sense * before.first, anew ? mirrored.second : sense * before.second), anew || is_turned);
-    basis.inverse[r].first = anew ? mirrored.first : sense * basis.inverse[r].first;
-    basis.inverse[r].second = anew ? mirrored.second : sense * basis.inverse[r].second;
+    set_column(r, chosen(anew, mirrored, times(sense, before)), anew || is_turned);
+    basis.inverse[r] = chosen(anew, mirrored, times(sense, basis.inverse[r]));
   }
 }
 
@@ -142,8 +140,7 @@ Six priced(bool is_short) {
   Six direction = Six(Vec3(0), Vec3(0));
   [[unroll]] for (int r = 0; r < 6; ++r) {
     Real cost = basis.is_artificial[r] == is_short ? Real(1) : Real(0);
-    direction.first += cost * basis.inverse[r].first;
-    direction.second += cost * basis.inverse[r].second;
+    direction = plus(direction, cost, basis.inverse[r]);
   }
   return direction;
 }
@@ -176,18 +173,15 @@ bool enter(Six point, Real levels[6], Real rounding, bool allowed) {
     least = is_chosen ? ratio : least;
     pivot = is_chosen ? turned[r] : pivot;
     is_artificial = is_chosen ? basis.is_artificial[r] : is_artificial;
-    row.first = is_chosen ? basis.inverse[r].first : row.first;
-    row.second = is_chosen ? basis.inverse[r].second : row.second;
+    row = chosen(is_chosen, basis.inverse[r], row);
   }
   leaves = allowed ? leaves : 6;
   bool is_found = leaves < 6;
-  Real share = is_found ? Real(1) / pivot : Real(0);
-  row = Six(row.first * share, row.second * share);
+  row = times(is_found ? Real(1) / pivot : Real(0), row);
   UNROLL for (int r = 0; r < 6; ++r) {
     bool is_this = r == leaves;
     Real turn = is_found ? turned[r] : Real(0);
-    basis.inverse[r].first = is_this ? row.first : basis.inverse[r].first - turn * row.first;
-    basis.inverse[r].second = is_this ? row.second : basis.inverse[r].second - turn * row.second;
+    basis.inverse[r] = chosen(is_this, row, plus(basis.inverse[r], -turn, row));
     basis.is_artificial[r] = !is_this && basis.is_artificial[r];
   }
 #if SMALL
@@ -210,11 +204,9 @@ void refine() {
     Six row = basis.inverse[r], refined = row;
     UNROLL for (int c = 0; c < 6; ++c) {
       Real error = share * ((r == c ? Real(1) : Real(0)) - dot6(row, column(c)));
-      refined.first += error * basis.inverse[c].first;
-      refined.second += error * basis.inverse[c].second;
+      refined = plus(refined, error, basis.inverse[c]);
     }
-    basis.inverse[r].first = refined.first;
-    basis.inverse[r].second = refined.second;
+    basis.inverse[r] = refined;
   }
 }
 
@@ -222,11 +214,7 @@ void refine() {
 void balanced_levels(Six wanted, out Real levels[6]) {
   levels_of(wanted, levels);
   Six rest = wanted;
-  UNROLL for (int r = 0; r < 6; ++r) {
-    Six point = column(r);
-    rest.first -= levels[r] * point.first;
-    rest.second -= levels[r] * point.second;
-  }
+  UNROLL for (int r = 0; r < 6; ++r) rest = plus(rest, -levels[r], column(r));
   Real more[6];
   levels_of(rest, more);
   UNROLL for (int r = 0; r < 6; ++r) levels[r] += more[r];
