@@ -60,16 +60,15 @@ void main() {
   int rises = DEVICE_RISES;
   bool is_rising = !is_safe;
   uint state = 0u;
-  int pivots = 0;  // since the inverse was refined
   Solve solve;
-  bool has_basis = false, is_warm = false, is_solving = false;
+  Search search = Search(false, false, false, 0);
   int turns = 0;
   uint k = has_grip ? 0u : push.number;
   for (; k < push.number && turns < EFFORT_TURNS; ++turns) {
     Real enough = is_safe ? JUST_HELD : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
     // skips states that the last basis shows to be small, or that nothing depends on
-    bool is_new = !is_solving;
-    while (k < push.number && !is_solving) {
+    bool is_new = !search.is_solving;
+    while (k < push.number && !search.is_solving) {
       state = is_rising ? state : k;
       Vec4 tilted = states_in[2u * state + 1u];
       Six wanted = wanted_for(states_in[2u * state], tilted);
@@ -78,38 +77,19 @@ void main() {
         Real safe_tilt = kept(PLANE_SAFE_TILT, int(tilted.w), grip);
         is_past = is_no_number(safe_tilt) || safe_tilt < tilted.z;
       }
-      bool is_small = dot6(wanted, wanted) == Real(0) || (!is_rising && bound(wanted, has_basis) <= enough);
-      is_solving = !is_past && !is_small;
-      if (is_solving) solve = start(wanted);
-      is_rising = is_rising && is_solving;
-      k += is_solving ? 0u : 1u;
+      bool is_small = dot6(wanted, wanted) == Real(0) || (!is_rising && bound(wanted, search.has_basis) <= enough);
+      search.is_solving = !is_past && !is_small;
+      if (search.is_solving) solve = start(wanted);
+      is_rising = is_rising && search.is_solving;
+      k += search.is_solving ? 0u : 1u;
     }
-    // without a loop or a branch: those copy the basis
-    is_new = is_new && is_solving;
-    is_warm = is_new ? has_basis : is_warm;
-    restart(solve.wanted, ROUNDING * solve.size, is_new && !has_basis, is_new && has_basis);
-    has_basis = has_basis || is_new;
-    Real tolerance = is_rising && rises > 0 ? RISE_TOLERANCE : HALF_TOLERANCE;
-    ONCE_IF(is_solving && pivots >= FRESH_PIVOTS) {
-      refine();
-      pivots = 0;
-    }
-    pivots += is_solving ? 1 : 0;
-    step(solve, tolerance, enough, is_safe ? JUST_HELD : INFINITE, is_solving);
-    // where no column enters and the effort is not known, rounding may have gathered: once more from a refined inverse
-    bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
-    if (is_solving && solve.done && !is_told_apart && pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
-      solve.done = false;
-      pivots = FRESH_PIVOTS;
-    }
-    ONCE_IF(is_solving && solve.done) {
-      finish(solve);
+    turn(search, solve, is_new && search.is_solving, is_rising && rises > 0 ? RISE_TOLERANCE : HALF_TOLERANCE, enough, is_safe ? JUST_HELD : INFINITE);
+    ONCE_IF(search.is_solving && solve.done) {
+      finish(search, solve);
       Vec4 tilted = states_in[2u * state + 1u];
-      has_basis = (solve.effort < NO_DISTANCE && solve.is_known) || solve.is_beyond;
-      is_solving = false;
       // a basis of another load may end in a corner: an effort unknown then is solved from the start
-      bool is_told = has_basis || !is_warm;
-      bool is_coarse = is_rising && rises > 0 && has_basis;
+      bool is_told = search.has_basis || !search.is_warm;
+      bool is_coarse = is_rising && rises > 0 && search.has_basis;
       ONCE_IF(is_coarse) {
         uint next = highest(solve, solve.low * (Real(1) + RISE_TOLERANCE), state);
         rises = next == state ? 0 : rises - 1;

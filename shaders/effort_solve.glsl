@@ -215,14 +215,41 @@ void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is
   solve.pivots += 1;
 }
 
+// A grip's loop over states: whether there is a basis, whether it is another load's, whether a state is being solved.
+struct Search {
+  bool has_basis, is_warm, is_solving;
+  int pivots;  // since the inverse was refined
+};
+
+// A turn of that loop. Without a branch, and a loop only where the inverse is refined: those copy the basis.
+void turn(inout Search search, inout Solve solve, bool is_new, Real tolerance, Real enough, Real too_much) {
+  search.is_warm = is_new ? search.has_basis : search.is_warm;
+  restart(solve.wanted, ROUNDING * solve.size, is_new && !search.has_basis, is_new && search.has_basis);
+  search.has_basis = search.has_basis || is_new;
+  ONCE_IF(search.is_solving && search.pivots >= FRESH_PIVOTS) {
+    refine();
+    search.pivots = 0;
+  }
+  search.pivots += search.is_solving ? 1 : 0;
+  step(solve, tolerance, enough, too_much, search.is_solving);
+  // where no column enters and the effort is not known, rounding may have gathered: once more from a refined inverse
+  bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
+  if (search.is_solving && solve.done && !is_told_apart && search.pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
+    solve.done = false;
+    search.pivots = FRESH_PIVOTS;
+  }
+}
+
 // The effort anew, less the rounding of the inverse. One that was enough stays so, even if it is a little larger now.
-void finish(inout Solve solve) {
+void finish(inout Search search, inout Solve solve) {
   Real levels[6];
   balanced_levels(solve.wanted, levels);
   Cost cost = cost_of(levels);
   bool holds = cost.artificial <= ROUNDING * solve.size && solve.effort < NO_DISTANCE;
   solve.effort = holds ? cost.real : INFINITE;
   solve.is_enough = solve.is_enough && holds;
+  search.has_basis = (solve.effort < NO_DISTANCE && solve.is_known) || solve.is_beyond;
+  search.is_solving = false;
 }
 
 // Where a grip's turns ran out before its states did.

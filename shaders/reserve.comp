@@ -96,65 +96,48 @@ void main() {
   Real worst = Real(1) / MOST_PUSH;  // of the pushes' efforts
   Real low = friction, high = MOST_FRICTION;  // of this state: less friction than `low` does not hold
   int raises = 0;
-  int pivots = 0;  // since the inverse was refined
   Solve solve;
-  bool has_basis = false, is_warm = false, is_solving = false;
+  Search search = Search(false, false, false, 0);
   int turns = 0;
   uint k = has_grip ? 0u : number;
   for (; k < number && turns < RESERVE_TURNS && raise_turns < RESERVE_RAISE_TURNS; ++turns) {
     bool is_push = TASK == EFFORT_PUSH && k > 0u;
     Real enough = is_push ? worst : is_first ? Real(0) : Real(1), too_much = is_push || is_first ? INFINITE : Real(1);
-    bool is_new = !is_solving;
-    while (k < number && !is_solving) {
+    bool is_new = !search.is_solving;
+    while (k < number && !search.is_solving) {
       uint state = k == 0u ? hardest : k <= hardest ? k - 1u : k;
       Six wanted = TASK == EFFORT_PUSH ? wanted_push(k) : wanted_for(states_in[2u * state], states_in[2u * state + 1u]);
       if (k > 0u) enough = TASK == EFFORT_PUSH ? worst : Real(1);
       if (k > 0u) too_much = TASK == EFFORT_PUSH ? INFINITE : Real(1);
       bool may_pass = TASK == EFFORT_PUSH || friction <= low + FRICTION_STEP;
-      is_solving = dot6(wanted, wanted) > Real(0) && !(may_pass && bound(wanted, has_basis) <= enough);
-      if (is_solving) solve = start(wanted);
-      if (is_solving) continue;
+      search.is_solving = dot6(wanted, wanted) > Real(0) && !(may_pass && bound(wanted, search.has_basis) <= enough);
+      if (search.is_solving) solve = start(wanted);
+      if (search.is_solving) continue;
       k += 1u;
       low = friction;
       high = MOST_FRICTION;
       raises = 0;
     }
-    is_new = is_new && is_solving;
-    is_warm = is_new ? has_basis : is_warm;
-    restart(solve.wanted, ROUNDING * solve.size, is_new && !has_basis, is_new && has_basis);
-    has_basis = has_basis || is_new;
-    ONCE_IF(is_solving && pivots >= FRESH_PIVOTS) {
-      refine();
-      pivots = 0;
-    }
-    pivots += is_solving ? 1 : 0;
-    step(solve, is_first ? RISE_TOLERANCE : HALF_TOLERANCE, enough, too_much, is_solving);
-    bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
-    if (is_solving && solve.done && !is_told_apart && pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
-      solve.done = false;
-      pivots = FRESH_PIVOTS;
-    }
-    ONCE_IF(is_solving && solve.done) {
-      finish(solve);
-      has_basis = (solve.effort < NO_DISTANCE && solve.is_known) || solve.is_beyond;
-      is_solving = false;
-      if (!has_basis && is_warm && !is_first) continue;  // once more from the start
+    turn(search, solve, is_new && search.is_solving, is_first ? RISE_TOLERANCE : HALF_TOLERANCE, enough, too_much);
+    ONCE_IF(search.is_solving && solve.done) {
+      finish(search, solve);
+      if (!search.has_basis && search.is_warm && !is_first) continue;  // once more from the start
       bool is_held = solve.effort * (Real(1) - HALF_TOLERANCE) <= Real(1);
       // one call for both that ask: each call is compiled for itself
       bool asks = TASK == EFFORT_FRICTION && (is_first || (!is_held && !(friction >= MOST_FRICTION)));
       Real asked = friction;
-      [[dont_unroll]] for (; asks; asks = false) asked = least_friction(column(CUT), dot6(column(CUT), solve.wanted));
+      ONCE_IF(asks) asked = least_friction(column(CUT), dot6(column(CUT), solve.wanted));
       if (TASK == EFFORT_PUSH) {
         bool is_alone = k == 0u;
         worst = is_alone ? (solve.effort < Real(1) ? worst : INFINITE) : max(worst, solve.effort);
         k = worst < NO_DISTANCE ? k + 1u : number;
         if (is_alone) displaced = solve.wanted;
-        has_basis = has_basis && !is_alone;
+        search.has_basis = search.has_basis && !is_alone;
       } else if (is_first) {
         friction = min(MOST_FRICTION, asked);
         low = friction;
         is_first = false;
-        has_basis = false;
+        search.has_basis = false;
       } else if (is_held && friction <= low + FRICTION_STEP) {
         k += 1u;
         low = friction;
@@ -171,7 +154,7 @@ void main() {
           low = max(friction, asked);
         }
         friction = min(MOST_FRICTION, max(low + FRICTION_STEP, raises < QUICK_RAISES ? Real(0) : (low + high) / Real(2)));
-        has_basis = has_basis && friction >= before;
+        search.has_basis = search.has_basis && friction >= before;
         raises += 1;
       }
     }
