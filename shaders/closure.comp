@@ -51,7 +51,7 @@ Real put_finger(int f, uint grip, Placement placement, Real closure, bool is_fea
   FingerFrame frame = placed_frame(placement, hand_frame(f));
   bool is_thumb = f == 0;
   int first = is_thumb ? 0 : 1, joint = first_joint_of(f);  // segment that the first of the three angles turns
-  Vec3 lengths = scale * Vec3(hand_length(f, first), hand_length(f, first + 1), hand_length(f, first + 2));
+  Vec3 lengths = scale * hand_lengths(f, first);
   Vec3 radii = scale * Vec3(hand_radius(f, first + 1), hand_radius(f, first + 2), hand_radius(f, first + 3));
   Vec3 start = is_thumb ? frame.base : frame.base + (scale * hand_length(f, 0)) * frame.forward;
   put_joint(joint, grip, frame.base, is_feasible);

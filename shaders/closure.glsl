@@ -19,11 +19,8 @@ struct Trace {
 
 struct Closing {
   int reason;
-  Vec3 direction;
-  Real t_index, t_thumb, gap;
-  Vec3 midpoint;
-  Real closure;
-  Real thumb_angle, index_angle;
+  Vec3 direction, midpoint;
+  Real t_index, t_thumb, gap, closure, thumb_angle, index_angle;
   bool grazing;
   Placement placement;
 };
@@ -73,23 +70,16 @@ Placement place_hand(Real closure, Vec3 direction, Real roll, Vec3 midpoint, Rea
   sine_cosine(roll, sq, cq);
   Vec3 f2 = cq * down + sq * side;
   Vec3 f3 = cross(direction, f2);
-  Placement placement;
-  placement.scale = scale;
-  placement.rotation = Mat3(direction * e1.x + f2 * e2.x + f3 * e3.x, direction * e1.y + f2 * e2.y + f3 * e3.y,
-                            direction * e1.z + f2 * e2.z + f3 * e3.z);
-  Vec3 thumb_lengths = Vec3(hand_length(0, 0), hand_length(0, 1), hand_length(0, 2));
-  Vec3 thumb_tip = thumb_points(hand_frame(0), thumb_lengths, thumb_angles(closure)).tip;
+  Mat3 rotation = Mat3(direction * e1.x + f2 * e2.x + f3 * e3.x, direction * e1.y + f2 * e2.y + f3 * e3.y,
+                       direction * e1.z + f2 * e2.z + f3 * e3.z);
+  Vec3 thumb_tip = thumb_points(hand_frame(0), hand_lengths(0, 0), thumb_angles(closure)).tip;
   Vec3 middle = thumb_tip + Real(0.5) * apart;
-  placement.translation = midpoint - placement.rotation * (scale * middle);
-  return placement;
+  return Placement(rotation, midpoint - rotation * (scale * middle), scale);
 }
 
 FingerFrame placed_frame(Placement placement, FingerFrame frame) {
-  FingerFrame placed;
-  placed.base = placement.rotation * (placement.scale * frame.base) + placement.translation;
-  placed.forward = placement.rotation * frame.forward;
-  placed.palmward = placement.rotation * frame.palmward;
-  return placed;
+  Vec3 base = placement.rotation * (placement.scale * frame.base) + placement.translation;
+  return FingerFrame(base, placement.rotation * frame.forward, placement.rotation * frame.palmward);
 }
 
 Closing close_fingers(Grip grip) {

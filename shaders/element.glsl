@@ -6,12 +6,9 @@
 #include "real.glsl"
 
 struct Element {
-  Vec2 a;
-  Vec2 b;
-  Vec2 center;
+  Vec2 a, b, center;
   Real radius;
-  int side;
-  int supports;
+  int side, supports;
 };
 
 // From a record: layout.h says what `code` holds.

@@ -62,8 +62,7 @@ Held held_by(uint grip) {
   Vec3 direction = grip_direction(grip_axis(AXIS_AZIMUTH, grip), grip_axis(AXIS_OBLIQUITY, grip));
   Vec3 pour = held.feasible ? pour_direction(direction, scene.pour_sense) : Vec3(1, 0, 0);
   Vec3 beside = cross(Vec3(0, 1, 0), pour);
-  uint at = uint(PLANE_MIDPOINT) * push.stride + grip;
-  Vec3 midpoint = Vec3(real_out[at], real_out[at + push.stride], real_out[at + 2u * push.stride]);
+  Vec3 midpoint = kept_vector(PLANE_MIDPOINT, grip);
   Vec3 center = Vec3(scene.center_x, scene.center_y, scene.center_z);
   held.midpoint = Vec3(dot(midpoint, pour), midpoint.y, dot(midpoint, beside));
   held.center = Vec3(dot(center, pour), center.y, dot(center, beside));

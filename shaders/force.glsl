@@ -17,9 +17,7 @@ Vec3 pour_direction(Vec3 direction, Real sense) {
 }
 
 Vec3 up_direction(Vec3 pour, Real sine_tilt, Real cosine_tilt) { return Vec3(Real(0), cosine_tilt, Real(0)) - sine_tilt * pour; }
-
 Vec3 load_center(Load load, Vec3 pour) { return load.fixed_center + load.lean * pour + Vec3(Real(0), load.height, Real(0)); }
-
 Real grip_reference(Real mass, Real gravity, Real pivot_length) { return mass * gravity * max(pivot_length, SMALLEST_PIVOT); }
 
 Real normal_force(Real base, Real range, Real torque, Real reference) {
@@ -27,7 +25,6 @@ Real normal_force(Real base, Real range, Real torque, Real reference) {
 }
 
 Real feedback_force(Real normal, Real opening, Real max) { return clamp(normal + opening, Real(0), max); }
-
 Real longest_bare_lever(Real pivot_length) { return BARE_LEVER * max(pivot_length, SMALLEST_PIVOT); }
 
 Real strength_at(Real opening) {

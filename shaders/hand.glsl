@@ -13,13 +13,10 @@ struct Placement {
 };
 
 struct FingerPoints {
-  Vec3 pip;
-  Vec3 dip;
-  Vec3 tip;
+  Vec3 pip, dip, tip;
 };
 
 Vec3 thumb_angles(Real closure) { return hand_vectors[HAND_THUMB_OPEN].xyz + closure * hand_vectors[HAND_THUMB_SWING].xyz; }
-
 Vec3 finger_angles(Real closure) { return hand_vectors[HAND_FINGER_OPEN].xyz + closure * hand_vectors[HAND_FINGER_SWING].xyz; }
 
 Vec3 segment_end(FingerFrame frame, Vec3 start, Real length, Real angle) {
@@ -51,12 +48,8 @@ Vec3 tip_to_tip(Real closure, out Vec3 slope) {
   FingerFrame index = hand_frame(1);
   FingerFrame thumb = hand_frame(0);
   Vec3 index_mcp = index.base + hand_length(1, 0) * index.forward;
-  Vec3 index_angles = finger_angles(closure);
-  Vec3 thumb_angle = thumb_angles(closure);
-  Vec3 index_lengths = Vec3(hand_length(1, 1), hand_length(1, 2), hand_length(1, 3));
-  Vec3 thumb_lengths = Vec3(hand_length(0, 0), hand_length(0, 1), hand_length(0, 2));
-  FingerPoints finger = finger_points(index, index_mcp, index_lengths, index_angles);
-  FingerPoints opposing = thumb_points(thumb, thumb_lengths, thumb_angle);
+  FingerPoints finger = finger_points(index, index_mcp, hand_lengths(1, 1), finger_angles(closure));
+  FingerPoints opposing = thumb_points(thumb, hand_lengths(0, 0), thumb_angles(closure));
   Vec3 s1 = finger.pip - index_mcp, s2 = finger.dip - finger.pip, s3 = finger.tip - finger.dip;
   Vec3 t1 = opposing.pip - thumb.base, t2 = opposing.dip - opposing.pip, t3 = opposing.tip - opposing.dip;
   Vec3 w = hand_vectors[HAND_FINGER_SWING].xyz;

@@ -7,9 +7,7 @@
 #include "real.glsl"
 
 struct FingerFrame {
-  Vec3 base;
-  Vec3 forward;
-  Vec3 palmward;
+  Vec3 base, forward, palmward;
 };
 
 layout(constant_id = CONST_GAP_TABLE_SIZE) const int GAP_ENTRIES = GAP_TABLE_SIZE;
@@ -50,6 +48,10 @@ Real hand_length(int finger, int segment) {
          : segment == 1 ? finger_vector(finger, 1).w
          : segment == 2 ? finger_vector(finger, 2).w
                         : finger_vector(finger, 4).y;
+}
+
+Vec3 hand_lengths(int finger, int first) {
+  return Vec3(hand_length(finger, first), hand_length(finger, first + 1), hand_length(finger, first + 2));
 }
 
 Real hand_radius(int finger, int point) {

@@ -12,8 +12,7 @@ struct FingerMotion {
   int joint;
   Real at, end;
   int steps;
-  bool blocked;
-  bool unsettled;
+  bool blocked, unsettled;
 };
 
 const int BONE_PLACES = BETWEEN + 1;
@@ -57,7 +56,6 @@ struct PaperAxis {
 };
 
 Vec3 chain_sums(Vec3 joints) { return Vec3(joints.x, joints.x + joints.y, joints.x + joints.y + joints.z); }
-
 Vec3 segment_angles(FingerMotion motion) { return motion.origin + motion.at * motion.rates; }
 
 Bend bend_finger(Vec3 lengths, Vec3 angles) {

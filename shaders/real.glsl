@@ -9,17 +9,6 @@
 #define Vec3 dvec3
 #define Vec4 dvec4
 #define Mat3 dmat3
-#else
-#define Real float
-#define Vec2 vec2
-#define Vec3 vec3
-#define Vec4 vec4
-#define Mat3 mat3
-#endif
-
-#include "layout.h"
-
-#if REAL_IS_DOUBLE
 #define NAMED_STOP_TOLERANCE Real(STOP_TOLERANCE_F64)
 #define DEGENERATE_SINE Real(DEGENERATE_SINE_F64)
 #define LEVEL_TOLERANCE Real(LEVEL_TOLERANCE_F64)
@@ -29,6 +18,11 @@
 #define NOT_A_NUMBER packDouble2x32(uvec2(0u, 0x7ff80000u))
 #define INFINITE packDouble2x32(uvec2(0u, 0x7ff00000u))
 #else
+#define Real float
+#define Vec2 vec2
+#define Vec3 vec3
+#define Vec4 vec4
+#define Mat3 mat3
 #define NAMED_STOP_TOLERANCE STOP_TOLERANCE_F32
 #define DEGENERATE_SINE DEGENERATE_SINE_F32
 #define LEVEL_TOLERANCE LEVEL_TOLERANCE_F32
@@ -38,6 +32,8 @@
 #define NOT_A_NUMBER uintBitsToFloat(0x7fc00000u)
 #define INFINITE uintBitsToFloat(0x7f800000u)
 #endif
+
+#include "layout.h"
 
 // Where iterations end, as core/real.h's Limits.
 layout(constant_id = CONST_STOP_TOLERANCE) const Real STOP_TOLERANCE = NAMED_STOP_TOLERANCE;
@@ -64,16 +60,7 @@ bool is_no_number(Real a) {
 #define INVOCATION ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)
 
 layout(std140, binding = BINDING_PARAMETERS) uniform ParameterBlock { Parameters scene; };
-
-layout(push_constant) uniform PushBlock {
-  uint count;   // grips of this chunk
-  uint stride;  // distance between planes
-  uint first;   // of a dispatch that is split
-  uint number;
-  uint floor_low;  // see Push (layout.h)
-  uint floor_high;
-  uint flag;
-} push;
+layout(push_constant) uniform PushBlock { uint count, stride, first, number, floor_low, floor_high, flag; } push;  // as Push of layout.h
 
 Real push_floor() {
 #if REAL_IS_DOUBLE

@@ -26,7 +26,7 @@ int touched_before(Vec3 separations) {
 
 int pose_articulated(int f, int first_joint, Mat3 rotation, Real closure) {
   FingerFrame frame = FingerFrame(Vec3(0), rotation * finger_vector(f, 1).xyz, rotation * finger_vector(f, 2).xyz);
-  Vec3 lengths = scale * Vec3(hand_length(f, 1), hand_length(f, 2), hand_length(f, 3));
+  Vec3 lengths = scale * hand_lengths(f, 1);
   Vec4 radii = scale * Vec4(hand_radius(f, 1), hand_radius(f, 2), hand_radius(f, 3), hand_radius(f, 4));
   RestingFinger resting = rest_finger(Finger(frame, posed_point(first_joint + 1, grip), lengths, radii), closure);
   put_finger(first_joint, resting.points);

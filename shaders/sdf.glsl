@@ -7,16 +7,14 @@
 
 struct Nearest {
   int element;
-  Real distance_squared;
-  Real other_squared;
+  Real distance_squared, other_squared;
   bool curved_tie;
   Vec2 outward;
   bool at_end, convex, supports;
 };
 
 struct Support {
-  Real distance;
-  Real other;
+  Real distance, other;
   Vec3 normal;
   int element;
   bool planar;
@@ -153,8 +151,7 @@ Vec2 profile_gradient(Vec2 q, out int element) {
 
 struct Cell {
   int i, j, k;
-  Vec3 fraction;
-  Vec3 outside;
+  Vec3 fraction, outside;
 };
 
 Cell locate_cell(Vec3 p) {

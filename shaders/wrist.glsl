@@ -15,8 +15,7 @@ struct ArmReach {
 };
 
 struct Wrist {
-  Real flexion, deviation, pronation;
-  Real share;
+  Real flexion, deviation, pronation, share;
 };
 
 Real range_share(Real angle, Real most, Real least) { return angle >= Real(0) ? angle / most : -angle / least; }
