@@ -3,8 +3,7 @@
 #ifndef BODY_GLSL
 #define BODY_GLSL
 
-#extension GL_EXT_control_flow_attributes : require
-
+#include "build.glsl"
 #include "real.glsl"
 
 // Spheres on a bone between its joints; 0: nothing of this kernel is compiled.

@@ -11,14 +11,11 @@
 #include "table.glsl"
 
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
-layout(constant_id = CONST_POSE) const int POSE = POSE_ARTICULATED;
 
 const bool WANTS_PROXIES = PLANE_PROXIES >= 0 || PLANE_BONE_STRETCH >= 0;
 
 // What examining the points of a grip gathers.
-uint grip;
-Real scale;
-uint status, touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
+uint touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
 Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth;
 Vec3 previous_proxy;
 

@@ -15,8 +15,6 @@
 
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
 layout(constant_id = CONST_EFFORT_TASK) const int TASK = EFFORT_WORST;
-layout(constant_id = CONST_BARE) const bool BARE = true;
-layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 * STATES_IN_BLOCK]; };
 
 // What a grip holds with: contacts about `center` in units of length, 0 where there is none; strengths in units of force.
 Vec3 center, pour;

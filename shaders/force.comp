@@ -7,7 +7,7 @@
 //   torque^2 = (m g sin t)^2 |arm|^2     (exact: (m g (sin t arm_y + cos t arm_n))^2)
 //   hold     = m g / 2 (sqrt(1 - a^2 + (lever / gamma)^2) / mu + |a|),     a = d_y cos t = d . u
 //   lever    = |arm . (u x d)| = |cos t (y x d)_n arm_n - sin t (d_p arm_y - d_y arm_p)|,     as d . n = 0
-// which are the formulas of force.glsl with what a grip's states share taken out of them. A square grows with its root, so the largest torque is
+// which are the formulas of core/held.cpp with what a grip's states share taken out of them. A square grows with its root, so the largest torque is
 // found without roots: the torque at which F comes to F_max caps it, as tilts beyond that are equal.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -24,8 +24,6 @@ layout(constant_id = CONST_TORQUE) const int TORQUE = TORQUE_PAPER;
 layout(constant_id = CONST_REFERENCE) const int REFERENCE = REFERENCE_PER_OBJECT;
 layout(constant_id = CONST_UNTIL_POURED) const bool UNTIL_POURED = false;
 layout(constant_id = CONST_OFF_AXIS) const bool OFF_AXIS = true;
-layout(constant_id = CONST_BARE) const bool BARE = true;
-layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 * STATES_IN_BLOCK]; };
 
 Real plane_real(int plane, uint fill, uint grip, Real absent) {
   return plane >= 0 ? real_out[(uint(plane) + fill) * push.stride + grip] : absent;
@@ -58,7 +56,6 @@ Held held_by(uint grip) {
   uint status = status_of(grip);
   held.feasible = is_feasible(status);
   held.antipodal = (status & STATUS_ANTIPODAL) != 0u;
-  // the frame of a tilt
   Vec3 direction = grip_direction(grip_axis(AXIS_AZIMUTH, grip), grip_axis(AXIS_OBLIQUITY, grip));
   Vec3 pour = held.feasible ? pour_direction(direction, scene.pour_sense) : Vec3(1, 0, 0);
   Vec3 beside = cross(Vec3(0, 1, 0), pour);
@@ -69,11 +66,9 @@ Held held_by(uint grip) {
   held.across = dot(cross(Vec3(0, 1, 0), direction), pour);
   held.level = dot(direction, beside);
   held.rise = direction.y;
-  // what holding asks for
   held.half_rise = Real(0.5) * abs(direction.y);
   held.half_per_friction = Real(0.5) / scene.friction;
   held.per_torsion = BARE ? Real(0) : Real(1) / scene.torsion;
-  // where the feedback ends to grow
   held.reference = torque_reference(held.center, held.midpoint);
   Real room = max(Real(0), scene.force_max - scene.force_base);
   bool grows = held.reference > Real(0) && scene.force_range > Real(0);
@@ -198,7 +193,6 @@ void main() {
   uint fill = push.first / scene.tilts, tilt = push.first % scene.tilts;
   uint k = 0u;
   while (k < push.number) {
-    // the states of one fill that this dispatch has
     FillTerms terms[TOGETHER];
     [[unroll]] for (int g = 0; g < TOGETHER; ++g) {
       terms[g] = no_terms(held[g]);

@@ -5,6 +5,9 @@
 
 #include "real.glsl"
 
+layout(constant_id = CONST_BARE) const bool BARE = true;
+layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 * STATES_IN_BLOCK]; };
+
 struct Load {
   Real mass;
   Vec3 fixed_center;  // the vessel's own share of the centre of mass

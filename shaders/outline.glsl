@@ -14,11 +14,7 @@ layout(constant_id = CONST_SDF_KIND) const int SDF_KIND = SDF_OUTLINE;
 layout(std430, binding = BINDING_OUTLINE) readonly buffer OutlineBlock { Real outline_values[]; };
 #define OUTLINE_COUNT int(scene.outline_count)
 #define OUTLINE_LOOP [[dont_unroll]]
-Element outline_element(int i) {
-  int at = OUTLINE_STRIDE * i;
-  return make_element(Vec2(outline_values[at], outline_values[at + 1]), Vec2(outline_values[at + 2], outline_values[at + 3]),
-                      Vec2(outline_values[at + 4], outline_values[at + 5]), outline_values[at + 6], outline_values[at + 7]);
-}
+Element outline_element(int i) { return ELEMENT_AT(outline_values, OUTLINE_STRIDE * i); }
 void load_outline() {}
 
 #else

@@ -7,9 +7,6 @@
 #include "placed.glsl"
 #include "wrist.glsl"
 
-uint grip;
-Real scale;
-
 // As core/joints.h has them.
 int phalanx_digit(int phalanx) { return (phalanx + 1) / 3; }
 int phalanx_start(int phalanx) { return phalanx + 1 + 2 * phalanx_digit(phalanx); }
@@ -59,7 +56,7 @@ Real digits_overlap() {
 }
 
 void judge_hand() {
-  uint status = status_of(grip);
+  status = status_of(grip);
   scale = grip_scale(grip);
   if (BETWEEN > 0) {
     Real self_depth = digits_overlap();

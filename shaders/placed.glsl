@@ -7,6 +7,11 @@
 #include "hand_table.glsl"
 
 layout(constant_id = CONST_PLACED) const int PLACED = -1;
+layout(constant_id = CONST_POSE) const int POSE = POSE_ARTICULATED;
+
+// The feasible grip of this invocation, its status and the scale of its hand.
+uint grip, status;
+Real scale;
 
 int first_joint_of(int finger) { return finger == 0 ? 0 : 5 * finger - 1; }
 int points_of(int finger) { return finger == 0 ? 4 : 5; }

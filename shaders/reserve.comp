@@ -28,7 +28,6 @@ Real least_friction(Six direction, Real value) {
   ++raise_turns;  // the end of the loop, too
   [[dont_unroll]] for (int turn = 0; turn < JOINTS; ++turn) {
     ++raise_turns;
-    // h(u), and how it grows with the friction
     Real height = Real(0), slope = Real(0), most = Real(0), growth = Real(0);
     UNROLL for (int k = 0; k < JOINTS; ++k) {
       int j = joint_in_order(k);

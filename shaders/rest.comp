@@ -7,11 +7,6 @@
 #include "placed.glsl"
 #include "projection.glsl"
 
-layout(constant_id = CONST_POSE) const int POSE = POSE_ARTICULATED;
-
-uint grip, status;
-Real scale;
-
 void put_finger(int first_joint, FingerPoints points) {
   put_point(PLANE_POSED, first_joint + 2, grip, points.pip);
   put_point(PLANE_POSED, first_joint + 3, grip, points.dip);
