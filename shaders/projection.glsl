@@ -172,8 +172,7 @@ int decide_turn(Vec3 clear, FingerMotion motion, out bool blocked) {
 // By selection where the core branches: in nearly every turn of the loop some lane takes each of its ways, and then all wait for it. SwiftShader does not
 // compile chains of selections that are much longer.
 RestingFinger rest_finger(Finger finger, Real limit) {
-  RestingFinger resting;
-  resting.undecided = false;
+  bool undecided = false;
   FingerMotion motion = start_motion(limit);
   FingerWatch watch = FingerWatch(Vec3(0), Vec3(0), Vec3(NO_DISTANCE), 0, -1, true, true);
   UNROLL_PRECISE for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
@@ -183,7 +182,7 @@ RestingFinger rest_finger(Finger finger, Real limit) {
     Support support = support_at(place.ball.place);
     Real separation = support.distance - place.ball.radius;
     see_place(separation, place_step(support, separation, place, finger.frame), motion, watch);
-    resting.undecided = resting.undecided || passes_close(support, separation, place, finger.frame);
+    undecided = undecided || passes_close(support, separation, place, finger.frame);
     int next = place_to_see(watch.number + 1, motion.joint, watch.touched);
     bool seen_all = watch.looks && next >= PLACES;
     bool meets = !watch.looks && separation < STOP_TOLERANCE;
@@ -217,13 +216,9 @@ RestingFinger rest_finger(Finger finger, Real limit) {
     ends_here = watch.number >= PLACES;
   }
   Vec3 angles = segment_angles(motion);
-  resting.angles = Vec3(angles.x, angles.y - angles.x, angles.z - angles.y);
-  resting.points = finger_points(finger.frame, finger.mcp, finger.lengths, resting.angles);
-  resting.separations = watch.separations;
-  resting.before = watch.before;
-  resting.blocked = motion.blocked;
-  resting.unsettled = motion.unsettled;
-  return resting;
+  angles = Vec3(angles.x, angles.y - angles.x, angles.z - angles.y);
+  FingerPoints points = finger_points(finger.frame, finger.mcp, finger.lengths, angles);
+  return RestingFinger(angles, points, watch.separations, watch.before, motion.blocked, motion.unsettled, undecided);
 }
 
 PaperAxis paper_axis(Vec3 index_mcp, Vec3 little_mcp, Vec3 index_tip, Vec3 thumb_tip) {

@@ -237,28 +237,21 @@ Vec3 distance_gradient(Vec3 p, out int element) {
 }
 
 Support support_at(Vec3 p) {
-  Support support;
-  support.element = -1;
-  support.planar = false;
   if (SDF_KIND == SDF_LATTICE) {
-    support.distance = lattice_distance(p);
-    support.other = support.distance;
-    support.normal = Vec3(0);
-    return support;
+    Real distance = lattice_distance(p);
+    return Support(distance, distance, Vec3(0), -1, false);
   }
   precise Real r = sqrt(p.x * p.x + p.z * p.z);
   Vec2 q = Vec2(r, p.y);
   bool inside;
   Nearest nearest = nearest_element(q, inside);
   Real distance = sqrt(nearest.distance_squared);
-  support.distance = inside ? -distance : distance;
-  support.other = nearest.supports ? Real(FAR_AWAY) : sqrt(nearest.other_squared);
+  Real other = nearest.supports ? Real(FAR_AWAY) : sqrt(nearest.other_squared);
   Vec2 normal = nearest.outward * (Real(1) / sqrt(dot(nearest.outward, nearest.outward)));
-  support.element = nearest.element;
-  support.planar = nearest.convex && !inside && !nearest.curved_tie && normal.x >= Real(0);
+  bool planar = nearest.convex && !inside && !nearest.curved_tie && normal.x >= Real(0);
   Vec2 radial = r > Real(0) ? Vec2(p.x, p.z) * (Real(1) / r) : Vec2(1, 0);
-  support.normal = Vec3(normal.x * radial.x, normal.y, normal.x * radial.y);
-  return support;
+  Vec3 outward = Vec3(normal.x * radial.x, normal.y, normal.x * radial.y);
+  return Support(inside ? -distance : distance, other, outward, nearest.element, planar);
 }
 
 Real plane_step(Support support, Real separation, Real closing, Real speed, Real acceleration) {
