@@ -15,7 +15,4 @@
 #define UNROLL_PRECISE  // left to the driver: spirv-opt would lose `precise` (cmake/embed_module.cmake), or the number of turns is a constant of the scene
 #endif
 
-// A loop of one turn instead of a branch: a driver skips it where no lane takes it. It does not skip a branch.
-#define ONCE_IF(condition) [[dont_unroll]] for (bool once = condition; once; once = false)
-
 #endif
