@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Builds wholehand._core with CMake, and packs the shipped scenes beside it, where the module looks for them (scene/shipped.cpp)."""
+"""Builds wholehand._core with CMake, and packs the shipped scenes beside it, where the module looks for them (core/reader/shipped.cpp)."""
 
 import os
 import re
@@ -36,8 +36,8 @@ class CMakeBuild(build_ext):
         (built,) = (build / "python").glob("_core*.so")
         shutil.copy2(built, module)
         subprocess.run(["strip", "--strip-unneeded", module], check=True)
-        for folder, place in (("examples", "scenes"), ("extreme", "extreme")):
-            shutil.copytree(ROOT / "scene" / folder, module.parent / "share/wholehand" / place, dirs_exist_ok=True)
+        for folder in ("scenes", "extreme"):
+            shutil.copytree(ROOT / "examples" / folder, module.parent / "share/wholehand" / folder, dirs_exist_ok=True)
 
 
 version = re.search(r"project\(wholehand VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())

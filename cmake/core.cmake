@@ -63,6 +63,6 @@ core_precision(core_f64 double ${core_real_sources})         # the product
 core_precision(core_f32 float ${core_real_sources})          # what float costs
 core_precision(core_ld "long double" ${core_real_sources})   # a wider reference for the tests, which link it
 set_target_properties(core_ld PROPERTIES EXCLUDE_FROM_ALL TRUE)
-target_link_libraries(core_plain PUBLIC fmt::fmt core_f64 core_f32)  # evaluators.cpp names both; static libraries may need each other
+target_link_libraries(core_plain PUBLIC base_text base_numbers fmt::fmt core_f64 core_f32)  # evaluators.cpp names both; static libraries may need each other
 add_library(core INTERFACE)
 target_link_libraries(core INTERFACE core_f64 core_f32 core_plain Threads::Threads)

@@ -1,47 +1,55 @@
 # SPDX-License-Identifier: MIT
-# One library per folder. Every folder of the product stands on a floor, and uses folders of lower floors only: configuring fails on a link
-# that goes up or sideways, and the test Folders.* on an #include that does.
-set(WHOLEHAND_FLOORS
-  shaders=0 include=0
-  core=1
-  system=2 scene=2 live=2 people=2 statistics=2
-  host=3 device=3 objects=3 charts=3 program=3
-  recordings=4 grips=4 advice=4
-  sweeps=5 viewer=5
-  evidence=6 cluster=6
-  report=7
-  trials=8 studies=8
-  app=9 library=9
-  python=10)
+# One library per folder. The folders stand here in their order, door by door: a folder uses those before it alone, and the two wings do not use
+# each other. Configuring fails on a link that does otherwise, and the test Folders.* on an #include that does.
+set(WHOLEHAND_FOLDERS
+  base/text base/numbers base/system base/files base/statistics base/charts
+  shaders
+  core core/people core/reader core/meshes
+  host
+  device/session device/loop device/grippers device/simulated device/recordings device/advice
+  sweeps/grips sweeps/plan sweeps/lists sweeps/result sweeps/rank sweeps/run sweeps/cluster
+  evidence/check evidence/report evidence/trials evidence/studies
+  app/program app/viewer app/commands app/c app/python)
+set(WHOLEHAND_WINGS device sweeps)
 
-# Sets `result` to the floor of a folder.
-function(wholehand_floor folder result)
-  foreach(entry IN LISTS WHOLEHAND_FLOORS)
-    if(entry MATCHES "^${folder}=([0-9]+)$")
-      set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
-      return()
-    endif()
-  endforeach()
-  message(FATAL_ERROR "The folder ${folder}/ has no floor: name it in WHOLEHAND_FLOORS (cmake/folders.cmake)")
+# Sets `result` to the place of a folder in the order.
+function(wholehand_place folder result)
+  list(FIND WHOLEHAND_FOLDERS "${folder}" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "The folder ${folder}/ has no place: name it in WHOLEHAND_FOLDERS (cmake/folders.cmake)")
+  endif()
+  set(${result} ${place} PARENT_SCOPE)
 endfunction()
 
-# wholehand_folder(NAME [USES FOLDER ...] [LINKS LIBRARY ...] [EXCEPT FILE ...] [QUICK] [HEADERS HEADER ...])
+# Fails where `name` may not use `other`.
+function(wholehand_check_use name other)
+  wholehand_place(${name} own)
+  wholehand_place(${other} place)
+  if(NOT place LESS own)
+    message(FATAL_ERROR "${name}/ cannot use ${other}/: a folder uses those before it in WHOLEHAND_FOLDERS (cmake/folders.cmake)")
+  endif()
+  string(REGEX REPLACE "/.*" "" door "${name}")
+  string(REGEX REPLACE "/.*" "" other_door "${other}")
+  if(NOT door STREQUAL other_door AND door IN_LIST WHOLEHAND_WINGS AND other_door IN_LIST WHOLEHAND_WINGS)
+    message(FATAL_ERROR "${name}/ cannot use ${other}/: ${door}/ and ${other_door}/ do not use each other")
+  endif()
+endfunction()
+
+# wholehand_folder(FOLDER [USES FOLDER ...] [LINKS LIBRARY ...] [EXCEPT FILE ...] [QUICK] [EXACT] [HEADERS HEADER ...])
 #
-# makes the library NAME of NAME/*.cpp without the EXCEPT files (paths from the folder, may be patterns). USES and LINKS are what its
-# includers need too. The rest is for speed (cmake/build_speed.cmake): QUICK is less optimized (-O1), and HEADERS are precompiled. Eight files are
-# compiled as one.
-function(wholehand_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 folder "QUICK" "" "USES;LINKS;HEADERS;EXCEPT")
-  wholehand_floor(${name} floor)
-  foreach(lower IN LISTS folder_USES)
-    wholehand_floor(${lower} other)
-    if(NOT other LESS floor)
-      message(FATAL_ERROR "${name}/ (floor ${floor}) cannot use ${lower}/ (floor ${other}): a folder uses lower floors only")
-    endif()
+# makes a library of FOLDER/*.cpp without the EXCEPT files (paths from the folder, may be patterns). Its name is the folder's with _ for /. USES
+# and LINKS are what its includers need too. The rest is for speed (cmake/build_speed.cmake): QUICK is less optimized (-O1), EXACT is compiled as
+# the kernels are (core_options), and HEADERS are precompiled. Eight files are compiled as one.
+function(wholehand_folder path)
+  cmake_parse_arguments(PARSE_ARGV 1 folder "QUICK;EXACT" "" "USES;LINKS;HEADERS;EXCEPT")
+  foreach(other IN LISTS folder_USES)
+    wholehand_check_use(${path} ${other})
   endforeach()
-  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${name}/*.cpp")
+  string(REPLACE "/" "_" name "${path}")
+  list(TRANSFORM folder_USES REPLACE "/" "_")
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${path}/*.cpp")
   if(folder_EXCEPT)
-    list(TRANSFORM folder_EXCEPT PREPEND "${PROJECT_SOURCE_DIR}/${name}/")
+    list(TRANSFORM folder_EXCEPT PREPEND "${PROJECT_SOURCE_DIR}/${path}/")
     file(GLOB excepted CONFIGURE_DEPENDS ${folder_EXCEPT})
     list(REMOVE_ITEM sources ${excepted})
   endif()
@@ -51,6 +59,9 @@ function(wholehand_folder name)
   target_link_libraries(${name} PUBLIC ${folder_USES} ${folder_LINKS})
   if(folder_QUICK)
     wholehand_quick_build(${name})
+  endif()
+  if(folder_EXACT)
+    core_options(${name})
   endif()
   if(folder_HEADERS)
     wholehand_precompile(${name} ${folder_HEADERS})

@@ -17,15 +17,15 @@ if(WHOLEHAND_SANITIZE OR WHOLEHAND_FUZZ)
 endif()
 add_custom_target(packaging ${with_all} DEPENDS wholehand wholehand_library)
 
-# ---- program, and the scenes that it and the library find at share/wholehand (scene/shipped.cpp) ----
+# ---- program, and the scenes that it and the library find at share/wholehand (core/reader/shipped.cpp) ----
 install(TARGETS wholehand RUNTIME COMPONENT program)
-install(DIRECTORY scene/examples/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/scenes" COMPONENT common FILES_MATCHING PATTERN "*.toml")
-install(DIRECTORY scene/extreme/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/extreme" COMPONENT common FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY examples/scenes/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/scenes" COMPONENT common FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY examples/extreme/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/extreme" COMPONENT common FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/wholehand/docs" COMPONENT common
   FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE PATTERN results EXCLUDE)
 install(DIRECTORY examples/ DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/wholehand/examples" COMPONENT common
   FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ  # read, and copied; hand.gd stays a link to the other project's
-  PATTERN __pycache__ EXCLUDE PATTERN .import EXCLUDE PATTERN "*.so" EXCLUDE)
+  PATTERN scenes EXCLUDE PATTERN extreme EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN .import EXCLUDE PATTERN "*.so" EXCLUDE)
 
 install(FILES device/udev/60-wholehand.rules DESTINATION lib/udev/rules.d COMPONENT program)  # udev sees by itself that it is new
 
@@ -59,7 +59,7 @@ set_target_properties(wholehand_library PROPERTIES EXPORT_NAME wholehand)
 target_include_directories(wholehand_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 install(TARGETS wholehand_library EXPORT wholehandTargets
   LIBRARY COMPONENT library NAMELINK_COMPONENT development)
-install(FILES include/wholehand/wholehand.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/wholehand" COMPONENT development)
+install(FILES app/c/wholehand/wholehand.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/wholehand" COMPONENT development)
 install(EXPORT wholehandTargets NAMESPACE wholehand:: DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
 configure_package_config_file(cmake/package/wholehandConfig.cmake.in "${packaging_dir}/wholehandConfig.cmake"
   INSTALL_DESTINATION "${WHOLEHAND_PACKAGE_DIR}")
@@ -70,20 +70,23 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY "${CMAKE_INSTALL_FU
 configure_file(cmake/package/wholehand.pc.in "${packaging_dir}/wholehand.pc" @ONLY)
 install(FILES "${packaging_dir}/wholehand.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
 
-# ---- development, too: core/ and sweeps/ with the folders that they use, for programs in C++ (docs/library.md) ----
-set(cpp_folders core system scene live statistics host objects charts grips sweeps)
+# ---- development, too: base/, core/, host/ and sweeps/ but for the cluster, for programs in C++ (docs/library.md) ----
+set(cpp_folders ${WHOLEHAND_FOLDERS})
+list(FILTER cpp_folders INCLUDE REGEX "^(base|shaders|core|host|sweeps)(/|$)")
+list(REMOVE_ITEM cpp_folders sweeps/cluster)
+list(TRANSFORM cpp_folders REPLACE "/" "_" OUTPUT_VARIABLE cpp_libraries)
 set(cpp_dir "${CMAKE_INSTALL_INCLUDEDIR}/wholehand/cpp")  # includes are named from here: "core/evaluator.h"
 target_compile_features(core INTERFACE cxx_std_20)
-install(TARGETS core core_plain core_f64 core_f32 shaders system scene live statistics host objects charts grips sweeps EXPORT wholehandCppTargets
+install(TARGETS core_plain core_f64 core_f32 ${cpp_libraries} sweeps EXPORT wholehandCppTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}/wholehand" COMPONENT development INCLUDES DESTINATION "${cpp_dir}")
 install(EXPORT wholehandCppTargets NAMESPACE wholehand:: DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
-add_dependencies(packaging sweeps scene)
-foreach(folder IN LISTS cpp_folders ITEMS shaders)
+add_dependencies(packaging ${cpp_libraries})
+foreach(folder IN LISTS cpp_folders)
   file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.h")
   install(FILES ${headers} DESTINATION "${cpp_dir}/${folder}" COMPONENT development)
 endforeach()
 
-# ---- python: the folder python/ has its own rules, with COMPONENT python ----
+# ---- python: cmake/python.cmake has its rules, with COMPONENT python ----
 if(TARGET wholehand_python)
   add_dependencies(packaging wholehand_python)
 endif()

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "core/prepare.h"
 
 namespace wholehand {

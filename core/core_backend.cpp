@@ -10,9 +10,9 @@
 #include <mutex>
 #include <thread>
 
+#include "base/numbers/parallel.h"
 #include "core/candidates.h"
 #include "core/fills.h"
-#include "core/parallel.h"
 #include "shaders/status.h"
 
 namespace wholehand {

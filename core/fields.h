@@ -24,7 +24,7 @@ enum class FieldRange { finite, may_be_infinite, may_be_missing };
 struct Field {
   int number;  // FIELD_*
   FieldShape shape;
-  const char* variable;   // name in the result file; null: the file has variables of its own for it (sweeps/variables)
+  const char* variable;   // name in the result file; null: the file has variables of its own for it (sweeps/plan/variables)
   const char* units;      // of the values: "m", "rad", "N", "N m", "1"
   const char* long_name;  // what it is, and its frame
   const char* comment;    // formula, or what a special value means; may be empty

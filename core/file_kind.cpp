@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
 
 namespace wholehand {
 namespace {
@@ -125,6 +128,17 @@ FileKind file_kind(std::string_view start, std::uint64_t size) {
   if (is_binary_stl(start, size)) return FileKind::stl;
   if (is_utf16(start)) return FileKind::utf16;
   return kind_of_text(start.substr(0, 64 << 10));
+}
+
+FileKind file_kind_at(const std::string& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) return FileKind::unknown;
+  std::string head(64 << 10, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::uintmax_t size = std::filesystem::file_size(path, failed);
+  return file_kind(head, failed ? head.size() : size);
 }
 
 std::string wrong_kind(FileKind kind, std::string_view wanted) {

@@ -13,6 +13,9 @@ enum class FileKind { unknown, gltf, stl, obj, ply, result, recording, scene, lf
 // `start`: the first bytes, of which 64 KiB are looked through; `size`: bytes of the whole file.
 FileKind file_kind(std::string_view start, std::uint64_t size);
 
+// What a file is. Unknown also where no regular file is there that can be read. Waits for no pipe.
+FileKind file_kind_at(const std::string& path);
+
 // The first word of the first line that is neither empty nor a comment.
 std::string_view first_word(std::string_view text);
 

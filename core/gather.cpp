@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/parallel.h"
+#include "base/numbers/parallel.h"
 #include "core/scene.h"
 
 namespace wholehand {

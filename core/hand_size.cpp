@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/normal.h"
+#include "base/numbers/normal.h"
 
 namespace wholehand {
 namespace {

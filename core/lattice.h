@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/half.h"
+#include "base/numbers/half.h"
 #include "shaders/layout.h"
 
 namespace wholehand {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A vessel read from a mesh file, as the kernels and the drawings need it: plain data, made by objects/vessel.h.
+// A vessel read from a mesh file, as the kernels and the drawings need it: plain data, made by core/meshes/vessel.h.
 #pragma once
 
 #include <array>

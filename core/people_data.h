@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers of a population of people, as a scene's [people] may change them; people/ draws persons from them.
+// The numbers of a population of people, as a scene's [people] may change them; core/people/ draws persons from them.
 // docs/people.md has the meaning and the source of each.
 #pragma once
 

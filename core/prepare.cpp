@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "core/hand.h"
 #include "core/lattice.h"
 #include "core/load.h"

@@ -125,7 +125,7 @@ struct MeshData {
   Triple rotate{};           // rad
   bool origin_at_base = true;
   std::optional<double> lattice_spacing;  // m; absent: as wide as the wanted accuracy allows
-  std::shared_ptr<const MeshBody> body;   // the file once it is read (objects/vessel.h); null before
+  std::shared_ptr<const MeshBody> body;   // the file once it is read (core/meshes/vessel.h); null before
 };
 
 struct GuidancePoint {

@@ -11,16 +11,16 @@
 namespace wholehand {
 namespace {
 
-using Point2 = std::array<double, 2>;
+using Pair = std::array<double, 2>;
 
 // How far beyond a tangent a point may lie, m: rounding of the outline's coordinates, far less than a finger's smallest stop distance.
 constexpr double BEYOND_TOLERANCE = 1e-13;
 
-double dot(const Point2& a, const Point2& b) { return a[0] * b[0] + a[1] * b[1]; }
-Point2 from_to(const Point2& a, const Point2& b) { return {b[0] - a[0], b[1] - a[1]}; }
+double dot(const Pair& a, const Pair& b) { return a[0] * b[0] + a[1] * b[1]; }
+Pair from_to(const Pair& a, const Pair& b) { return {b[0] - a[0], b[1] - a[1]}; }
 
 // Whether the direction from an arc's center meets the arc.
-bool meets(const PreparedElement& arc, const Point2& direction) {
+bool meets(const PreparedElement& arc, const Pair& direction) {
   const double size = std::hypot(direction[0], direction[1]);
   if (size == 0 || arc.side * direction[0] < 0) return false;
   const double height = arc.center[1] + arc.radius * direction[1] / size;
@@ -28,14 +28,14 @@ bool meets(const PreparedElement& arc, const Point2& direction) {
 }
 
 // How far an element reaches in a direction of length 1.
-double reach(const PreparedElement& element, const Point2& direction) {
+double reach(const PreparedElement& element, const Pair& direction) {
   const double ends = std::max(dot(direction, element.a), dot(direction, element.b));
   if (element.side == 0 || !meets(element, direction)) return ends;
   return std::max(ends, dot(direction, element.center) + element.radius);
 }
 
 bool line_supports(const std::vector<PreparedElement>& outline, std::size_t own) {
-  const Point2 normal = outline[own].center;
+  const Pair normal = outline[own].center;
   const double level = dot(normal, outline[own].a);
   return std::all_of(outline.begin(), outline.end(),
                      [&](const PreparedElement& other) { return reach(other, normal) <= level + BEYOND_TOLERANCE; });
@@ -43,22 +43,22 @@ bool line_supports(const std::vector<PreparedElement>& outline, std::size_t own)
 
 // Where the tangents at an arc's ends meet: the arc lies in the triangle of this point and its ends. None of an arc of more than 120
 // degrees.
-std::optional<Point2> corner_of(const PreparedElement& arc) {
-  const Point2 a = from_to(arc.center, arc.a), b = from_to(arc.center, arc.b);
-  const Point2 middle{a[0] + b[0], a[1] + b[1]};
+std::optional<Pair> corner_of(const PreparedElement& arc) {
+  const Pair a = from_to(arc.center, arc.a), b = from_to(arc.center, arc.b);
+  const Pair middle{a[0] + b[0], a[1] + b[1]};
   const double size = std::hypot(middle[0], middle[1]);  // 2 r cos(half of the angle)
   if (size < arc.radius) return std::nullopt;
   const double stretch = 2 * arc.radius * arc.radius / (size * size);
-  return Point2{arc.center[0] + stretch * middle[0], arc.center[1] + stretch * middle[1]};
+  return Pair{arc.center[0] + stretch * middle[0], arc.center[1] + stretch * middle[1]};
 }
 
 // A point lies beyond none of an arc's tangents if it lies in the disc or, seen from the center beside the arc, beyond neither end's
 // tangent. The ends' distances from the center may differ from the radius by what the scene's reader allows.
-bool within_tangents(const PreparedElement& arc, const Point2& p) {
-  const Point2 from_center = from_to(arc.center, p);
+bool within_tangents(const PreparedElement& arc, const Pair& p) {
+  const Pair from_center = from_to(arc.center, p);
   if (meets(arc, from_center)) return std::hypot(from_center[0], from_center[1]) <= arc.radius + BEYOND_TOLERANCE;
-  const auto is_within = [&](const Point2& end) {
-    const Point2 arm = from_to(arc.center, end);
+  const auto is_within = [&](const Pair& end) {
+    const Pair arm = from_to(arc.center, end);
     const double size = std::hypot(arm[0], arm[1]);
     return dot(from_center, arm) <= size * (size + BEYOND_TOLERANCE);
   };
@@ -71,7 +71,7 @@ bool arc_supports(const std::vector<PreparedElement>& outline, std::size_t own) 
   if ((arc.side > 0) != (arc.b[1] > arc.a[1])) return false;  // it bulges inwards
   return std::all_of(outline.begin(), outline.end(), [&](const PreparedElement& other) {
     if (other.side != 0 && other.center == arc.center && std::abs(other.radius - arc.radius) <= BEYOND_TOLERANCE) return true;
-    const std::optional<Point2> corner = other.side != 0 ? corner_of(other) : other.a;
+    const std::optional<Pair> corner = other.side != 0 ? corner_of(other) : other.a;
     return corner && within_tangents(arc, *corner) && within_tangents(arc, other.a) && within_tangents(arc, other.b);
   });
 }

@@ -16,10 +16,10 @@
 #include <system_error>
 #include <thread>
 
-#include "core/parallel.h"
+#include "base/numbers/parallel.h"
+#include "base/system/clock.h"
 #include "host/step_recorder.h"
 #include "shaders/layout.h"
-#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.h"
+#include "base/text/error.h"
 
 namespace wholehand::host {
 

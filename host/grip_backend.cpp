@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <array>
 
+#include "base/numbers/parallel.h"
+#include "base/system/clock.h"
 #include "core/candidates.h"
 #include "core/core_backend.h"
 #include "core/fields.h"
 #include "core/fills.h"
 #include "core/mirror.h"
-#include "core/parallel.h"
 #include "core/prepare.h"
 #include "host/grip_program.h"
 #include "host/stream.h"
 #include "host/turns.h"
 #include "shaders/status.h"
-#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {

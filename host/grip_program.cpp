@@ -7,11 +7,11 @@
 #include <functional>
 #include <set>
 
+#include "base/system/clock.h"
 #include "core/touch.h"
 #include "host/compile.h"
 #include "host/run_once.h"
 #include "host/turns.h"
-#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {

@@ -8,8 +8,8 @@
 #include <mutex>
 #include <string_view>
 
+#include "base/system/memory_limit.h"
 #include "host/vulkan.h"
-#include "system/memory_limit.h"
 
 namespace wholehand::host {
 namespace {

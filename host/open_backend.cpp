@@ -7,12 +7,12 @@
 #include <limits>
 #include <vector>
 
+#include "base/system/clock.h"
+#include "base/system/progress.h"
+#include "base/text/error.h"
 #include "core/core_backend.h"
-#include "core/error.h"
 #include "host/device.h"
 #include "host/grip_backend.h"
-#include "system/clock.h"
-#include "system/progress.h"
 
 namespace wholehand {
 

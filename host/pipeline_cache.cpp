@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "system/cache_folder.h"
+#include "base/files/cache_folder.h"
 
 namespace wholehand::host {
 namespace {

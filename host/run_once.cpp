@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/system/clock.h"
 #include "host/step_recorder.h"
 #include "shaders/layout.h"
-#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/error.h"
+#include "base/text/error.h"
 
 namespace wholehand::host {
 

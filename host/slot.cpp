@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "system/clock.h"
+#include "base/system/clock.h"
 
 namespace wholehand::host {
 namespace {

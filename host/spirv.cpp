@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "host/spirv_codes.h"
 
 namespace wholehand::host {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <deque>
 
+#include "base/system/clock.h"
 #include "host/slot.h"
-#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The house's own rules, read from the sources: a folder includes lower floors only, and no two files need each other.
+// The house's own rules, read from the sources: a folder includes those before it only, and no two files need each other.
 // sanitizers: none
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,14 +21,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// WHOLEHAND_FLOORS of cmake/folders.cmake.
-std::map<std::string, int> floors() {
-  const std::string text = file_text(fs::path(WHOLEHAND_SOURCE_DIR) / "cmake/folders.cmake");
-  const std::size_t begin = text.find("set(WHOLEHAND_FLOORS"), end = text.find(')', begin);
-  const std::string list = text.substr(begin, end - begin);
-  const std::regex entry("([a-z]+)=([0-9]+)");
-  std::map<std::string, int> found;
-  for (std::sregex_iterator it(list.begin(), list.end(), entry), last; it != last; ++it) found[(*it)[1]] = std::stoi((*it)[2]);
+// A list of cmake/folders.cmake.
+std::vector<std::string> cmake_list(const std::string& name) {
+  const std::string text = file_text(fs::path(WHOLEHAND_SOURCE_DIR) / "cmake/folders.cmake"), head = "set(" + name;
+  const std::size_t begin = text.find(head) + head.size();
+  std::istringstream list(text.substr(begin, text.find(')', begin) - begin));
+  return {std::istream_iterator<std::string>(list), {}};
+}
+
+// The folders in their order, and the doors of those that do not use each other.
+struct House {
+  std::vector<std::string> folders, wings;
+};
+
+House house() { return {cmake_list("WHOLEHAND_FOLDERS"), cmake_list("WHOLEHAND_WINGS")}; }
+
+std::string door_of(const std::string& path) { return path.substr(0, path.find('/')); }
+
+std::vector<std::string> doors(const House& all) {
+  std::vector<std::string> found;
+  for (const std::string& folder : all.folders)
+    if (std::find(found.begin(), found.end(), door_of(folder)) == found.end()) found.push_back(door_of(folder));
+  return found;
+}
+
+// The C++ files of the product, from the root: "core/grip.cpp".
+std::vector<std::string> product_files() {
+  const fs::path root = WHOLEHAND_SOURCE_DIR;
+  std::vector<std::string> found;
+  for (const std::string& door : doors(house()))
+    for (const auto& entry : fs::recursive_directory_iterator(root / door)) {
+      const std::string ending = entry.path().extension();
+      if (ending == ".cpp" || ending == ".h") found.push_back(fs::relative(entry.path(), root).string());
+    }
   return found;
 }
 
@@ -41,31 +69,40 @@ std::vector<Include> includes_of(const std::string& file, const std::string& tex
   return found;
 }
 
-// The includes of every C++ file of the folders that have a floor.
+// The includes of every C++ file of the product.
 std::vector<Include> all_includes() {
   std::vector<Include> found;
-  for (const auto& [folder, floor] : floors())
-    for (const auto& entry : fs::directory_iterator(fs::path(WHOLEHAND_SOURCE_DIR) / folder)) {
-      const std::string ending = entry.path().extension();
-      if (ending != ".cpp" && ending != ".h") continue;
-      const auto here = includes_of(folder + "/" + entry.path().filename().string(), file_text(entry.path()));
-      found.insert(found.end(), here.begin(), here.end());
-    }
+  for (const std::string& file : product_files()) {
+    const auto here = includes_of(file, file_text(fs::path(WHOLEHAND_SOURCE_DIR) / file));
+    found.insert(found.end(), here.begin(), here.end());
+  }
   return found;
 }
 
-std::string folder_of(const std::string& file) { return file.substr(0, file.find('/')); }
+// The place of a file's folder in the order; past the end: it is in none of them.
+std::size_t place_of(const std::string& file, const House& all) {
+  std::size_t best = all.folders.size(), longest = 0;
+  for (std::size_t i = 0; i < all.folders.size(); ++i) {
+    const std::string& folder = all.folders[i];
+    if (folder.size() > longest && file.starts_with(folder + "/")) best = i, longest = folder.size();
+  }
+  return best;
+}
+
 // A header and its source are one.
 std::string stem_of(const std::string& file) { return file.substr(0, file.rfind('.')); }
 
 // What an include does wrong; "" if nothing.
-std::string fault_of(const Include& include, const std::map<std::string, int>& floors) {
-  const std::string from = folder_of(include.file), to = folder_of(include.target);
-  const auto floor = floors.find(from), other = floors.find(to);
+std::string fault_of(const Include& include, const House& all) {
   if (include.target.find('/') == std::string::npos) return "is not named from the root";
-  if (other == floors.end()) return "is in no folder of the product";
-  if (from == to) return "";
-  return other->second < floor->second ? "" : "goes up or sideways";
+  const std::size_t from = place_of(include.file, all), to = place_of(include.target, all);
+  if (to == all.folders.size()) return "is in no folder of the product";
+  if (to > from) return "comes later";
+  const auto is_wing = [&](const std::string& file) {
+    return std::find(all.wings.begin(), all.wings.end(), door_of(file)) != all.wings.end();
+  };
+  const bool is_across = is_wing(include.file) && is_wing(include.target) && door_of(include.file) != door_of(include.target);
+  return is_across ? "is of the other wing" : "";
 }
 
 // The files of each circle, by stems, in one line; empty where there is none.
@@ -96,41 +133,63 @@ std::vector<std::string> circles(const std::vector<Include>& includes) {
   return {lines.begin(), lines.end()};
 }
 
-TEST(Folders, IncludeLowerFloorsOnly) {
-  const auto floor = floors();
-  ASSERT_GE(floor.size(), 14u);
+TEST(Folders, IncludeThoseBeforeThemOnly) {
+  const House all = house();
+  ASSERT_GE(all.folders.size(), 30u);
+  ASSERT_EQ(all.wings.size(), 2u);
   const auto includes = all_includes();
   ASSERT_GT(includes.size(), 500u);
-  for (const Include& include : includes) EXPECT_EQ(fault_of(include, floor), "") << include.file << " includes " << include.target;
+  for (const Include& include : includes) EXPECT_EQ(fault_of(include, all), "") << include.file << " includes " << include.target;
 }
 
 TEST(Folders, NoTwoFilesNeedEachOther) {
   for (const std::string& circle : circles(all_includes())) ADD_FAILURE() << "a circle: " << circle;
 }
 
-// Neither test above would check a folder without a floor.
-TEST(Folders, EveryFolderHasAFloor) {
-  const auto floor = floors();
+// Neither test above would check a folder without a place in the order.
+TEST(Folders, EveryFolderHasAPlace) {
+  const House all = house();
+  const std::vector<std::string> first = doors(all);
   for (const auto& entry : fs::directory_iterator(WHOLEHAND_SOURCE_DIR)) {
     const std::string name = entry.path().filename();
     if (!entry.is_directory() || name.starts_with('.') || name == "build" || name == "cmake" || name == "docs" ||
         name == "examples" || name == "tests")
       continue;
-    EXPECT_TRUE(floor.contains(name)) << name << "/ is missing in WHOLEHAND_FLOORS (cmake/folders.cmake)";
+    EXPECT_NE(std::find(first.begin(), first.end(), name), first.end()) << name << "/ is no door (cmake/folders.cmake)";
   }
+  for (const std::string& file : product_files())
+    EXPECT_LT(place_of(file, all), all.folders.size()) << file << " is in no folder of WHOLEHAND_FOLDERS (cmake/folders.cmake)";
 }
 
-// What other files list by name: the source archive of the Python package, and the headers that clang-tidy checks.
-TEST(Folders, NoListLacksOne) {
+// What other files list by name: the source archive of the Python package, the headers that clang-tidy checks, what the launcher watches, and the
+// table of README.
+TEST(Folders, NoListLacksADoor) {
   const fs::path root = WHOLEHAND_SOURCE_DIR;
   const std::string archive = "\n" + file_text(root / "MANIFEST.in"), tidy = file_text(root / ".clang-tidy");
   const std::size_t begin = tidy.find("\nHeaderFilterRegex: '/("), end = tidy.find(")/'", begin);
   ASSERT_NE(end, std::string::npos);
   const std::string headers = "|" + tidy.substr(begin + 23, end - begin - 23) + "|";
-  for (const auto& [folder, floor] : floors()) {
-    EXPECT_NE(archive.find("\ngraft " + folder + "\n"), std::string::npos) << folder << "/ is missing in MANIFEST.in";
-    if (folder == "include" || folder == "shaders") continue;  // whose headers are not C++ alone
-    EXPECT_NE(headers.find("|" + folder + "|"), std::string::npos) << folder << "/ is missing in HeaderFilterRegex (.clang-tidy)";
+  const std::string launcher = file_text(root / "wholehand"), readme = file_text(root / "README.md");
+  const std::size_t parts = launcher.find("\nparts='"), last = launcher.find("'\n", parts);
+  ASSERT_NE(last, std::string::npos);
+  const std::string watched = " " + launcher.substr(parts + 8, last - parts - 8) + " ";
+  for (const std::string& door : doors(house())) {
+    EXPECT_NE(archive.find("\ngraft " + door + "\n"), std::string::npos) << door << "/ is missing in MANIFEST.in";
+    EXPECT_NE(watched.find(" " + door + " "), std::string::npos) << door << "/ is missing in the parts of the launcher";
+    EXPECT_NE(readme.find("\n| `" + door + "/` |"), std::string::npos) << door << "/ is missing in README.md";
+    if (door == "shaders") continue;  // whose headers are not C++ alone
+    EXPECT_NE(headers.find("|" + door + "|"), std::string::npos) << door << "/ is missing in HeaderFilterRegex (.clang-tidy)";
+  }
+}
+
+// base/ would serve any program.
+TEST(Folders, BaseKnowsNoGrip) {
+  const std::regex word("\\b(grip|hand|vessel)s?\\b", std::regex::icase);
+  for (const std::string& file : product_files()) {
+    if (!file.starts_with("base/")) continue;
+    const std::string text = file_text(fs::path(WHOLEHAND_SOURCE_DIR) / file);
+    std::smatch found;
+    EXPECT_FALSE(std::regex_search(text, found, word)) << file << " says " << found.str();
   }
 }
 
@@ -147,28 +206,29 @@ std::string printing_words(const std::string& text) {
 
 TEST(Folders, PrintAtOneDoor) {
   // both make what they print printable; progress draws on a terminal
-  const std::set<std::string> doors{"system/output.cpp", "system/progress.cpp"};
-  for (const auto& [folder, floor] : floors())
-    for (const auto& entry : fs::directory_iterator(fs::path(WHOLEHAND_SOURCE_DIR) / folder)) {
-      const std::string name = folder + "/" + entry.path().filename().string(), ending = entry.path().extension();
-      if ((ending != ".cpp" && ending != ".h") || doors.contains(name)) continue;
-      EXPECT_EQ(printing_words(file_text(entry.path())), "") << name << " prints; system/output.h does";
-    }
+  const std::set<std::string> printers{"base/system/output.cpp", "base/system/progress.cpp"};
+  for (const std::string& file : product_files()) {
+    if (printers.contains(file)) continue;
+    const std::string text = file_text(fs::path(WHOLEHAND_SOURCE_DIR) / file);
+    EXPECT_EQ(printing_words(text), "") << file << " prints; base/system/output.h does";
+  }
   EXPECT_EQ(printing_words("a(); std::fprintf(stderr, fmt::print(\"x\")); std::snprintf(b); output.put(c); std::fwrite(d)"),
             "fmt::print(;fprintf(;fwrite(;");
 }
 
 TEST(Folders, WhatIsWrongIsFound) {
-  const std::map<std::string, int> floor{{"low", 1}, {"beside", 1}, {"high", 2}};
-  const auto faults = [&](const std::string& text) {
-    std::string all;
-    for (const Include& include : includes_of("low/a.cpp", text)) all += fault_of(include, floor) + ";";
-    return all;
+  const House all{{"low/first", "low", "left/a", "right/b", "high"}, {"left", "right"}};
+  const auto faults = [&](const std::string& file, const std::string& text) {
+    std::string found;
+    for (const Include& include : includes_of(file, text)) found += fault_of(include, all) + ";";
+    return found;
   };
-  EXPECT_EQ(faults("#include \"low/a.h\"\n#include <high/b.h>\n// #include \"high/b.h\"\n"), ";");
-  EXPECT_EQ(faults("#include \"high/b.h\"\n"), "goes up or sideways;");
-  EXPECT_EQ(faults("x\n  #  include \"beside/b.h\"\n"), "goes up or sideways;");
-  EXPECT_EQ(faults("#include \"tests/b.h\"\n#include \"a.h\"\n"), "is in no folder of the product;is not named from the root;");
+  EXPECT_EQ(faults("low/a.cpp", "#include \"low/b.h\"\n#include <high/b.h>\n// #include \"high/b.h\"\n"), ";");
+  EXPECT_EQ(faults("low/a.cpp", "x\n  #  include \"high/b.h\"\n#include \"low/first/b.h\"\n"), "comes later;;");
+  EXPECT_EQ(faults("low/first/a.cpp", "#include \"low/b.h\"\n"), "comes later;");
+  EXPECT_EQ(faults("right/b/a.cpp", "#include \"left/a/b.h\"\n#include \"low/b.h\"\n"), "is of the other wing;;");
+  EXPECT_EQ(faults("low/a.cpp", "#include \"tests/b.h\"\n#include \"a.h\"\n"),
+            "is in no folder of the product;is not named from the root;");
   EXPECT_EQ(circles({{"a/x.cpp", "a/y.h"}, {"a/y.cpp", "a/z.h"}, {"a/z.h", "a/x.h"}, {"a/w.cpp", "a/x.h"}, {"a/x.cpp", "a/x.h"}}),
             std::vector<std::string>{"a/x a/y a/z"});
   EXPECT_TRUE(circles({{"a/x.cpp", "a/y.h"}, {"a/y.cpp", "a/z.h"}}).empty());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Linked into all tests: devices are opened in the environment that the program gives them.
-#include "program/vulkan_environment.h"
+#include "app/program/vulkan_environment.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/core_backend.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 
 int main() {
   using namespace wholehand;

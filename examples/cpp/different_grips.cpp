@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// sweeps/different_grips.h: a list of grips of which no two hold the hand at nearly the same place.
+// sweeps/lists/different_grips.h: a list of grips of which no two hold the hand at nearly the same place.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
 #include "core/evaluator.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
-#include "sweeps/different_grips.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
+#include "sweeps/lists/different_grips.h"
 
 using namespace wholehand;
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "core/evaluator.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 
 int main() {
   using namespace wholehand;

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/gather.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 
 int main() {
   using namespace wholehand;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// sweeps/plan.h: the grips that a scene asks for, by number.
+// sweeps/plan/plan.h: the grips that a scene asks for, by number.
 #include <cstdio>
 
-#include "scene/reader.h"
-#include "scene/shipped.h"
-#include "sweeps/plan.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
+#include "sweeps/plan/plan.h"
 
 int main() {
   using namespace wholehand;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// sweeps/run.h: what `wholehand sweep` does, with its files and what it prints.
+// sweeps/run/run.h: what `wholehand sweep` does, with its files and what it prints.
 #include <cstdio>
 #include <filesystem>
 
-#include "scene/reader.h"
-#include "scene/shipped.h"
-#include "sweeps/run.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
+#include "sweeps/run/run.h"
 
 int main() {
   using namespace wholehand;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/error.h"
+#include "base/text/error.h"
+#include "core/reader/reader.h"
 #include "core/scene.h"
-#include "scene/reader.h"
 
 int main() {
   using namespace wholehand;

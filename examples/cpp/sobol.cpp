@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// core/sobol.h: points that fill the axes of grips evenly, without a grid.
+// base/numbers/sobol.h: points that fill the axes of grips evenly, without a grid.
 #include <array>
 #include <cstdio>
 #include <set>
 #include <vector>
 
-#include "core/sobol.h"
+#include "base/numbers/sobol.h"
 
 int main() {
   using namespace wholehand;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// sweeps/sweep_result.h: a result file, read back. Run the example run first, which writes swept.nc.
+// sweeps/result/sweep_result.h: a result file, read back. Run the example run first, which writes swept.nc.
 #include <cstdio>
 #include <vector>
 
-#include "scene/reader.h"
-#include "sweeps/sweep_result.h"
+#include "core/reader/reader.h"
+#include "sweeps/result/sweep_result.h"
 
 int main() {
   using namespace wholehand;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand for C#: include/wholehand/wholehand.h of ABI 0 as P/Invoke declarations (Native, and a struct for each of C's), and
+// wholehand for C#: app/c/wholehand/wholehand.h of ABI 0 as P/Invoke declarations (Native, and a struct for each of C's), and
 // classes on top of them (Scene, Batch, Session). These free what they hold, and throw a WholehandException with its line.
 //
 // For Unity put this file and SessionThread.cs into Assets/, allow unsafe code, and put libwholehand.so into Assets/Plugins/. See

@@ -14,7 +14,7 @@
 #include "core/backend.h"
 #include "core/evaluator.h"
 #include "core/scene.h"
-#include "sweeps/plan.h"
+#include "sweeps/plan/plan.h"
 
 namespace wholehand::bench {
 

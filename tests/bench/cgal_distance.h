@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Signed distance to a mesh by CGAL's AABB tree, beside which objects/distance.h is measured; only where libcgal-dev is installed.
+// Signed distance to a mesh by CGAL's AABB tree, beside which core/meshes/distance.h is measured; only where libcgal-dev is installed.
 #pragma once
 
 #include <memory>
 
-#include "objects/mesh.h"
+#include "core/meshes/mesh.h"
 
 namespace wholehand::bench {
 

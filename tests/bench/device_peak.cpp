@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/parallel.h"
+#include "base/numbers/parallel.h"
 #include "host/commands.h"
 #include "host/run_once.h"
 #include "tests/bench/cost.h"

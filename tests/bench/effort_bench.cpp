@@ -12,7 +12,7 @@
 #include "core/evaluator.h"
 #include "core/grip_effort.h"
 #include "host/grip_backend.h"
-#include "sweeps/variables.h"
+#include "sweeps/plan/variables.h"
 #include "tests/bench/bench.h"
 #include "tests/support/loaded_grip.h"
 

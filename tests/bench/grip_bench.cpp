@@ -6,12 +6,12 @@
 
 #include "core/core_backend.h"
 #include "core/evaluator.h"
-#include "grips/holding.h"
-#include "grips/methods.h"
-#include "grips/report.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 #include "host/grip_backend.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
+#include "sweeps/grips/holding.h"
+#include "sweeps/grips/methods.h"
+#include "sweeps/grips/report.h"
 #include "tests/bench/bench.h"
 #include "tests/support/scenes.h"
 

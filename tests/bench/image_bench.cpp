@@ -10,8 +10,8 @@
 #include <numbers>
 #include <optional>
 
+#include "base/numbers/half.h"
 #include "core/evaluator.h"
-#include "core/half.h"
 #include "core/prepare.h"
 #include "host/grip_backend.h"
 #include "host/scene_arrays.h"

@@ -6,14 +6,14 @@
 #include <memory>
 #include <vector>
 
+#include "app/c/scene.h"
+#include "app/c/wholehand/wholehand.h"
+#include "base/text/error.h"
 #include "core/core_backend.h"
-#include "core/error.h"
+#include "device/session/session.h"
+#include "device/session/workspace.h"
 #include "host/open_backend.h"
-#include "include/wholehand/wholehand.h"
-#include "library/scene.h"
-#include "live/session.h"
-#include "live/workspace.h"
-#include "sweeps/variables.h"
+#include "sweeps/plan/variables.h"
 #include "tests/bench/bench.h"
 #include "tests/support/live_script.h"
 

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <thread>
 
-#include "core/error.h"
+#include "app/program/vulkan_environment.h"
+#include "base/text/error.h"
 #include "host/device.h"
-#include "program/vulkan_environment.h"
 #include "tests/bench/bench.h"
 
 namespace wholehand::bench {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <memory>
 
-#include "objects/distance.h"
-#include "objects/lattice.h"
+#include "core/meshes/distance.h"
+#include "core/meshes/lattice.h"
 #include "tests/bench/bench.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"

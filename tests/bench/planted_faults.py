@@ -19,7 +19,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "default"
-NO_PRODUCT = {"build", "cmake", "docs", "examples", "include", "tests"}
+NO_PRODUCT = {"build", "cmake", "docs", "examples", "tests"}
 # What a changed line may not be: no statement, or a text that is printed.
 PASSED_BY = re.compile(r'^\s*(//|\*|/\*|#|using |template|namespace |static_assert|"|layout\()|operator|"""')
 # An assignment or a call: what comes after it may depend on it.
@@ -36,8 +36,8 @@ def folders():
     """Folders of the product with code, and their files."""
     found = {}
     for path in sorted(ROOT.rglob("*")):
-        folder = path.relative_to(ROOT).parts[0]
-        if path.suffix in {".cpp", ".h", ".comp", ".glsl", ".py"} and folder not in NO_PRODUCT and path.parent != ROOT:
+        folder = path.parent.relative_to(ROOT).as_posix()
+        if path.suffix in {".cpp", ".h", ".comp", ".glsl", ".py"} and folder.split("/")[0] not in NO_PRODUCT and path.parent != ROOT:
             found.setdefault(folder, []).append(path)
     return found
 
@@ -104,7 +104,7 @@ def judge(path, number, text, later):
         if subprocess.run(["ninja", "-C", BUILD], capture_output=True).returncode:
             return None
         fast = ["-LE", "later"]
-        tiers = [("fast", [*fast, "-R", own_suites(path.relative_to(ROOT).parts[0])]), ("fast", fast), ("later", ["-L", "later"])]
+        tiers = [("fast", [*fast, "-R", own_suites(path.parent.relative_to(ROOT).as_posix())]), ("fast", fast), ("later", ["-L", "later"])]
         for tier, args in tiers[: 3 if later else 2]:
             if names := ctest(*args):
                 return f"{tier}: {names[0]}"

@@ -2,7 +2,7 @@
 // The whole roofline as one benchmark of one turn: peaks and kernels are measured in the same run, and the table follows Google Benchmark's.
 #include <optional>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "tests/bench/roofline.h"
 
 namespace wholehand::bench {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/numbers/parallel.h"
 #include "core/evaluator.h"
-#include "core/parallel.h"
 #include "core/wall_run.h"
 #include "host/grip_program.h"
 #include "host/run_once.h"

@@ -2,7 +2,7 @@
 // What the machine can do at most, measured in the run that it is compared with.
 #include <algorithm>
 
-#include "core/parallel.h"
+#include "base/numbers/parallel.h"
 #include "tests/bench/roofline.h"
 #include "tests/support/lane_probe.h"
 

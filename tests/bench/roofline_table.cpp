@@ -5,7 +5,7 @@
 #include <fstream>
 #include <thread>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "tests/bench/roofline.h"
 
 namespace wholehand::bench {

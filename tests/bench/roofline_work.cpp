@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "core/evaluator.h"
 #include "core/fields.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
-#include "sweeps/variables.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
+#include "sweeps/plan/variables.h"
 #include "tests/bench/roofline.h"
 #include "tests/support/counted_core.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "tests/support/refusal.h"
 #include "tests/support/sampled_outline.h"
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "sweeps/plan.h"
+#include "sweeps/plan/plan.h"
 #include "tests/support/fake_backend.h"
 
 namespace wholehand {

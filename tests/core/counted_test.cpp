@@ -12,10 +12,10 @@
 #include <thread>
 
 #include "core/gather.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 #include "core/wall_run.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
-#include "sweeps/plan.h"
+#include "sweeps/plan/plan.h"
 #include "tests/support/counted_core.h"
 
 namespace wholehand {

@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "core/hand_size.h"
-#include "evidence/compare.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
+#include "evidence/check/compare.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/gather.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 #include "core/scene.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
 
 namespace wholehand {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/evaluator.h"
-#include "evidence/compare.h"
-#include "evidence/convergence.h"
+#include "evidence/check/compare.h"
+#include "evidence/check/convergence.h"
 #include "tests/support/long_double.h"
 #include "tests/support/sampled_outline.h"
 #include "tests/support/whole_parity.h"

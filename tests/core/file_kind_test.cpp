@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "system/files.h"
+#include "base/files/files.h"
 #include "tests/support/meshes.h"
 
 namespace wholehand {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "base/numbers/normal.h"
 #include "core/hand.h"
-#include "core/normal.h"
 #include "core/prepare.h"
 #include "tests/support/scenes.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "core/evaluator.h"
 #include "core/joints.h"
 #include "tests/support/refusal.h"

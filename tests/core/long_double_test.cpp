@@ -5,10 +5,10 @@
 
 #include <memory>
 
-#include "evidence/compare.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
-#include "sweeps/plan.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
+#include "evidence/check/compare.h"
+#include "sweeps/plan/plan.h"
 #include "tests/support/long_double.h"
 
 namespace wholehand {

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "evidence/wall.h"
+#include "device/loop/wall.h"
 
 namespace wholehand {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "core/mesh_body.h"
 #include "core/mirror.h"
 #include "tests/support/scenes.h"

@@ -96,7 +96,7 @@ class GodotLibrary(EngineTest):
         place, turn = numbers(seen["vessel"])
         self.assertGreater(seen["tilt"], 0.1, "it is lifted and tilted by now")
         self.assertGreater(place[1], 0.01)
-        # 1e-7 m, to which a session finds the hand of a grip (tests/live/hand_view_test.cpp), and some units of 3e-8 of places and
+        # 1e-7 m, to which a session finds the hand of a grip (tests/device/session/hand_view_test.cpp), and some units of 3e-8 of places and
         # turns in float32: of the tips that say which grip it is, of the vessel, and of the joints
         self.assert_places([inward(rows_of(turn), place, joint) for joint in numbers(seen["nodes"])], known["proxies_m"], 1e-6)
         # -z of a joint runs along its bone to the next joint; a bone of 20 mm between places of float32 is 1e-5 rad off at most

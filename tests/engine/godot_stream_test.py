@@ -216,7 +216,7 @@ class GodotStream(EngineTest):
         for frame in held:
             beaker = frame["vessels"]["beaker"]
             seen = [inward(rows_of(beaker[3:]), beaker[:3], frame["joints"][name][:3]) for name in JOINTS]
-            # 1e-7 m, to which a session finds the hand of a grip (tests/live/hand_view_test.cpp), and some units of 3e-8 of places
+            # 1e-7 m, to which a session finds the hand of a grip (tests/device/session/hand_view_test.cpp), and some units of 3e-8 of places
             # below 0.5 m and of turns in float32
             self.assert_places(seen, known["proxies_m"], 1e-6 + 10 * apart)
 

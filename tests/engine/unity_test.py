@@ -166,7 +166,7 @@ class Unity(EngineTest):
         rows = in_threes(seen["vessel_rotation"])
         self.assertGreater(seen["tilt"], 0.1, "it is lifted and tilted by now")
         self.assertGreater(seen["vessel_place"][1], 0.01)
-        # 1e-7 m: to which a session finds the hand of a grip (tests/live/hand_view_test.cpp)
+        # 1e-7 m: to which a session finds the hand of a grip (tests/device/session/hand_view_test.cpp)
         self.assert_places([inward(rows, seen["vessel_place"], joint) for joint in seen["joints"]], known["proxies_m"], 1e-7)
         self.assertTrue(all(0.003 < radius < 0.03 for radius in seen["radii"]), seen["radii"])  # m: of skin about fingers
         self.assertGreater(seen["weight"], 1)

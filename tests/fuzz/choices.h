@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "scene/ranges.h"
+#include "core/reader/ranges.h"
 
 namespace wholehand {
 

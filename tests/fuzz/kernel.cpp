@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/error.h"
 #include "core/absent.h"
-#include "core/error.h"
 #include "core/evaluator.h"
-#include "scene/ranges.h"
-#include "scene/reader.h"
-#include "sweeps/robust.h"
+#include "core/reader/ranges.h"
+#include "core/reader/reader.h"
+#include "sweeps/lists/robust.h"
 #include "tests/fuzz/choices.h"
 #include "tests/fuzz/must.h"
 

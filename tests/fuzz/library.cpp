@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "include/wholehand/wholehand.h"
+#include "app/c/wholehand/wholehand.h"
 #include "tests/fuzz/must.h"
 
 namespace {

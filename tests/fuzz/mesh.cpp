@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.h"
-#include "objects/check.h"
-#include "objects/mesh.h"
+#include "base/text/error.h"
+#include "core/meshes/check.h"
+#include "core/meshes/mesh.h"
 
 namespace {
 

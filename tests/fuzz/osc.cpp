@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Datagrams of any bytes at all, as they may come to the port of a hand over the network: reading stays within its bounds, and what it accepts
-// keeps the promises of device/osc_messages.h.
+// keeps the promises of device/grippers/osc_messages.h.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "device/osc_messages.h"
+#include "device/grippers/osc_messages.h"
 #include "tests/fuzz/must.h"
 
 namespace wholehand::osc {

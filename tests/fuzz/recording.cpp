@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.h"
-#include "recordings/recording.h"
-#include "recordings/session_report.h"
+#include "base/text/error.h"
+#include "device/recordings/recording.h"
+#include "device/recordings/session_report.h"
 #include "tests/support/renewed_recording.h"
 
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Reports of any bytes at all, as a device or a host might send them: decoding stays within its bounds, and what it accepts keeps
-// the promises of device/protocol.h: numbers finite and in their ranges, a rotation that is one, and the same bytes when it is
+// the promises of device/grippers/protocol.h: numbers finite and in their ranges, a rotation that is one, and the same bytes when it is
 // encoded again.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
-#include "device/protocol.h"
+#include "device/grippers/protocol.h"
 #include "tests/fuzz/must.h"
 
 namespace wholehand::protocol {

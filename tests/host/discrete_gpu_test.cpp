@@ -8,7 +8,7 @@
 #include <bit>
 
 #include "core/prepare.h"
-#include "evidence/compare.h"
+#include "evidence/check/compare.h"
 #include "host/grip_backend.h"
 #include "tests/support/environment.h"
 #include "tests/support/files.h"

@@ -25,7 +25,7 @@ pack() {
   xz=$(command -v xz) || fail "xz is needed (xz-utils)" 3
   [ -n "$vulkan" ] || fail "the Vulkan loader is needed (libvulkan1)" 3
   [ ! -e "$folder/files" ] || fail "$folder has a packed folder already"
-  mkdir -p "$folder/start" "$folder/files" "$folder/scene"
+  mkdir -p "$folder/start" "$folder/files" "$folder/examples"
   for program in wholehand tests/wholehand_tests_plain tests/wholehand_bench; do
     if [ -x "$build/$program" ]; then
       programs+=("$build/$program")
@@ -37,7 +37,7 @@ pack() {
   libraries_of "${programs[@]}" "$vulkan" | xargs cp -L -t "$folder/files" -- "$vulkan"
   find "$folder/files" -type f -print0 | xargs -0 -n 1 -P "$(nproc)" xz -1
   libraries_of "$xz" | xargs cp -L -t "$folder/start" -- "$xz"
-  cp -r "$root/scene/examples" "$root/scene/extreme" "$folder/scene/"
+  cp -r "$root/examples/scenes" "$root/examples/extreme" "$folder/examples/"
   cp -- "${BASH_SOURCE[0]}" "$folder/gpu_day.sh"
   git -C "$root" describe --always --dirty >"$folder/commit" 2>/dev/null || echo "unknown commit" >"$folder/commit"
 }
@@ -98,7 +98,7 @@ scene_steps() {
 # Sweeps of the default scene's vessels and states that keep nothing but the best grips. One that may not fit is left out.
 sweep_steps() {
   local power=5 expected=0 heights obliquities rolls scene
-  scene=$(<"$here/scene/examples/three_beakers.toml")
+  scene=$(<"$here/examples/scenes/three_beakers.toml")
   while read -r heights obliquities rolls && [ $power -le "$largest" ]; do
     if [ $expected -gt 90 ] || [ $expected -gt $((END - SECONDS)) ]; then
       row "sweep-1e$power | left out: may take $expected s | | "

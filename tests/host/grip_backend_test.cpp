@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "core/core_backend.h"
-#include "evidence/compare.h"
+#include "evidence/check/compare.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
 

@@ -11,9 +11,9 @@
 #include <regex>
 
 #include "core/evaluator.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 #include "host/grip_program.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
 #include "tests/support/environment.h"
 #include "tests/support/files.h"
 

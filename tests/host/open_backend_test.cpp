@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "tests/support/fake_backend.h"
 
 namespace wholehand {

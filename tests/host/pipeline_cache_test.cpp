@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "system/cache_folder.h"
+#include "base/files/cache_folder.h"
 #include "tests/support/environment.h"
 #include "tests/support/vulkan_kernels.h"
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "host/grip_backend.h"
 #include "tests/support/vulkan_kernels.h"
 

@@ -14,7 +14,7 @@
 
 #include "core/candidates.h"
 #include "core/evaluator.h"
-#include "evidence/compare.h"
+#include "evidence/check/compare.h"
 #include "host/grip_backend.h"
 #include "host/grip_program.h"
 #include "host/run_once.h"

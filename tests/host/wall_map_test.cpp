@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "core/wall_run.h"
-#include "evidence/wall.h"
+#include "device/loop/wall.h"
 #include "tests/support/vulkan_listener.h"
 
 namespace wholehand {

@@ -109,7 +109,7 @@ class Contents(unittest.TestCase):
         self.assertIn(" ".join(licence), " ".join(words))
 
     def test_all_shipped_scenes_are_there(self):
-        for ours, theirs in (("scene/examples", "scenes"), ("scene/extreme", "extreme")):
+        for ours, theirs in (("examples/scenes", "scenes"), ("examples/extreme", "extreme")):
             staged = os.listdir(f"{STAGED}/usr/share/wholehand/{theirs}")
             self.assertEqual(sorted(os.listdir(os.path.join(SOURCE, ours))), sorted(staged))
 

@@ -22,7 +22,7 @@ def run(*command, **options):
 
 def named_headers():
     """Rows of the table in docs/library.md: header and example."""
-    return re.findall(r"^\| `((?:core|sweeps)/\w+\.h)` \|.*\| \[\w+\.cpp\]\(\.\./examples/cpp/(\w+\.cpp)\) \|$",
+    return re.findall(r"^\| `((?:base|core|sweeps)/[\w/]+\.h)` \|.*\| \[\w+\.cpp\]\(\.\./examples/cpp/(\w+\.cpp)\) \|$",
                       text(os.path.join(SOURCE, "docs/library.md")), re.MULTILINE)
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program's clock in a simulation (system/clock.h).
-#include "system/clock.h"
+// The program's clock in a simulation (base/system/clock.h).
+#include "base/system/clock.h"
 
 #include <simgrid/s4u.hpp>
 

@@ -21,11 +21,11 @@
 #include <simgrid/s4u.hpp>
 #include <stdexcept>
 
-#include "cluster/cluster_sweep.h"
-#include "cluster/team.h"
-#include "system/clock.h"
-#include "system/files.h"
-#include "system/interrupt.h"
+#include "base/system/clock.h"
+#include "base/system/interrupt.h"
+#include "sweeps/cluster/cluster_sweep.h"
+#include "sweeps/cluster/team.h"
+#include "sweeps/result/output_names.h"
 #include "tests/scale/simulated_backend.h"
 
 namespace wholehand::scale {

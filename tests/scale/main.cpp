@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/error.h"
-#include "system/files.h"
+#include "base/files/files.h"
+#include "base/text/error.h"
 #include "tests/scale/machine.h"
 #include "tests/scale/measure.h"
 #include "tests/scale/picture.h"

@@ -11,9 +11,9 @@
 #include <random>
 #include <vector>
 
-#include "cluster/packet.h"
-#include "sweeps/hand_lists.h"
-#include "sweeps/mark.h"
+#include "sweeps/cluster/packet.h"
+#include "sweeps/lists/hand_lists.h"
+#include "sweeps/result/mark.h"
 #include "tests/scale/simulated_backend.h"
 
 namespace wholehand::scale {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "charts/colors.h"
-#include "charts/picture.h"
-#include "charts/plot.h"
+#include "base/charts/colors.h"
+#include "base/charts/picture.h"
+#include "base/charts/plot.h"
 
 namespace wholehand::scale {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/numbers/random_bits.h"
 #include "core/evaluator.h"
-#include "core/random_bits.h"
-#include "scene/reader.h"
+#include "core/reader/reader.h"
 #include "tests/scale/machine.h"
 
 namespace wholehand::scale {

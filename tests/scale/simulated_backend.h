@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/scene.h"
-#include "sweeps/sweep_parts.h"
+#include "sweeps/run/sweep_parts.h"
 
 namespace wholehand::scale {
 

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "evidence/compare.h"
+#include "evidence/check/compare.h"
 #include "host/grip_backend.h"
-#include "sweeps/plan.h"
-#include "sweeps/variables.h"
+#include "sweeps/plan/plan.h"
+#include "sweeps/plan/variables.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
 #include "tests/support/whole_parity.h"

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "core/absent.h"
-#include "scene/ranges.h"
+#include "core/reader/ranges.h"
 #include "tests/support/whole_parity.h"
 
 namespace wholehand {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/scene.h"
-#include "evidence/compare.h"
+#include "evidence/check/compare.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

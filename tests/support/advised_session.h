@@ -2,10 +2,10 @@
 // A session that can be advised about: a beaker with liquid that is gripped, tilted and let go.
 #pragma once
 
-#include "advice/advice_loop.h"
+#include "base/text/error.h"
 #include "core/core_backend.h"
-#include "core/error.h"
 #include "core/evaluator.h"
+#include "device/advice/advice_loop.h"
 #include "tests/support/live_script.h"
 #include "tests/support/session_play.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/scene.h"
-#include "live/tick.h"
+#include "device/session/tick.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

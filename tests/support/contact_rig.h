@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "trials/held_body.h"
+#include "evidence/trials/held_body.h"
 
 namespace wholehand {
 

@@ -24,11 +24,11 @@
 #include <thread>
 #include <vector>
 
-#include "app/live.h"
-#include "core/error.h"
-#include "device/omega_gripper.h"
-#include "system/clock.h"
-#include "system/output.h"
+#include "app/commands/live.h"
+#include "base/system/clock.h"
+#include "base/system/output.h"
+#include "base/text/error.h"
+#include "device/grippers/omega_gripper.h"
 #include "tests/support/files.h"
 #include "tests/support/stand_in_dhd.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a plot of charts/plot has drawn, read back from its SVG.
+// What a plot of base/charts/plot has drawn, read back from its SVG.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes of scene/extreme, by their names, and their grips as the core answers them.
+// The scenes of examples/extreme, by their names, and their grips as the core answers them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/evaluator.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
-#include "sweeps/plan.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
+#include "sweeps/plan/plan.h"
 #include "tests/support/whole_parity.h"
 
 namespace wholehand {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/numbers/random_bits.h"
 #include "core/candidates.h"
-#include "core/random_bits.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {

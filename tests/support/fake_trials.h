@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/random_bits.h"
-#include "scene/reader.h"
+#include "base/numbers/random_bits.h"
+#include "base/text/error.h"
+#include "core/reader/reader.h"
+#include "evidence/trials/options.h"
 #include "tests/support/scenes.h"
-#include "trials/options.h"
 
 namespace wholehand {
 
@@ -35,7 +35,7 @@ inline Scene scene_for_trials() {
 
 // The shipped scene with few grips: its text is one that recordings can have.
 inline Scene shipped_scene_for_trials() {
-  Scene scene = read_scene_file(std::string(WHOLEHAND_SOURCE_DIR) + "/scene/examples/three_beakers.toml");
+  Scene scene = read_scene_file(std::string(WHOLEHAND_SOURCE_DIR) + "/examples/scenes/three_beakers.toml");
   const Scene few = scene_for_trials();
   scene.grips = few.grips;
   scene.tilts = few.tilts;

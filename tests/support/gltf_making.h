@@ -9,11 +9,11 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "objects/check.h"
-#include "objects/gltf_file.h"
-#include "objects/mesh.h"
-#include "system/json.h"
+#include "base/files/json.h"
+#include "base/text/error.h"
+#include "core/meshes/check.h"
+#include "core/meshes/gltf_file.h"
+#include "core/meshes/mesh.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
 

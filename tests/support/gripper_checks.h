@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "tests/support/mock_grippers.h"
 #include "tests/support/patient_reads.h"
 

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/scene.h"
-#include "live/tick.h"
+#include "device/session/tick.h"
 
 namespace wholehand {
 

@@ -9,9 +9,9 @@
 #include <functional>
 #include <vector>
 
+#include "base/system/clock.h"
 #include "core/loop.h"
-#include "device/haptic_loop.h"
-#include "system/clock.h"
+#include "device/loop/haptic_loop.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/error.h"
-#include "objects/vessel.h"
+#include "base/text/error.h"
+#include "core/meshes/vessel.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/refusal.h"

@@ -12,12 +12,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "base/files/json.h"
+#include "core/meshes/check.h"
+#include "core/meshes/distance.h"
+#include "core/meshes/lattice.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
-#include "objects/check.h"
-#include "objects/distance.h"
-#include "objects/lattice.h"
-#include "system/json.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

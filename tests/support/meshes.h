@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/mesh_body.h"
+#include "core/meshes/mesh.h"
 #include "core/scene.h"
-#include "objects/mesh.h"
 
 namespace wholehand {
 

@@ -19,8 +19,8 @@
 #include <thread>
 #include <vector>
 
-#include "device/protocol.h"
-#include "live/tick.h"
+#include "device/grippers/protocol.h"
+#include "device/session/tick.h"
 
 struct _UMockdevTestbed;
 struct _UMockdevIoctlBase;

@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-#include "device/protocol.h"
+#include "device/grippers/protocol.h"
 
 namespace wholehand::umockdev {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "base/text/error.h"
 #include "core/evaluator.h"
-#include "scene/reader.h"
+#include "core/reader/reader.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scene_draw.h"
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <string>
 
-#include "core/error.h"
-#include "device/omega_gripper.h"
+#include "base/text/error.h"
+#include "device/grippers/omega_gripper.h"
 #include "tests/support/refusal.h"
 #include "tests/support/stand_in_dhd.h"
 

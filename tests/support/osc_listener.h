@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "live/hand_view.h"
+#include "app/viewer/osc_stream.h"
+#include "device/session/hand_view.h"
 #include "tests/support/live_script.h"
-#include "viewer/osc_stream.h"
 
 namespace wholehand {
 

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "base/system/udp.h"
 #include "core/scene.h"
-#include "device/gripper.h"
-#include "device/osc_gripper.h"
-#include "system/udp.h"
+#include "device/grippers/osc_gripper.h"
+#include "device/loop/gripper.h"
 #include "tests/support/osc_words.h"
 
 namespace wholehand {

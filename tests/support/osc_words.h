@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/quaternion.h"
-#include "live/tick.h"
+#include "device/session/tick.h"
 
 namespace wholehand {
 

@@ -17,8 +17,8 @@
 #include <string>
 #include <thread>
 
-#include "device/haptic_loop.h"
-#include "device/panic.h"
+#include "device/loop/haptic_loop.h"
+#include "device/loop/panic.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "scene/reader.h"
-#include "scene/shipped.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 #include "tests/support/files.h"
 
 namespace wholehand {

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "device/gripper.h"
+#include "device/loop/gripper.h"
 #include "tests/support/mock_grippers.h"
 
 namespace wholehand {

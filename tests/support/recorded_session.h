@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "recordings/session_report.h"
+#include "device/recordings/session_report.h"
 
 namespace wholehand {
 

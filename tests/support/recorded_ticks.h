@@ -10,8 +10,8 @@
 #include <cstring>
 #include <random>
 
-#include "recordings/fields.h"
-#include "recordings/recording.h"
+#include "device/recordings/fields.h"
+#include "device/recordings/recording.h"
 #include "tests/support/files.h"
 #include "tests/support/renewed_recording.h"
 #include "tests/support/special_values.h"

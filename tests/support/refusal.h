@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "core/error.h"
+#include "base/text/error.h"
 
 namespace wholehand {
 

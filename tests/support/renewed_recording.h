@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include "core/error.h"
-#include "recordings/checksums.h"
-#include "recordings/classic_netcdf.h"
+#include "base/text/error.h"
+#include "device/recordings/checksums.h"
+#include "device/recordings/classic_netcdf.h"
 
 namespace wholehand {
 

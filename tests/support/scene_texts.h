@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <string>
 
-#include "core/error.h"
-#include "scene/reader.h"
+#include "base/text/error.h"
+#include "core/reader/reader.h"
 
 namespace wholehand {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/scenes.h"
-#include "core/random_bits.h"
+#include "base/numbers/random_bits.h"
 #include "core/result.h"
 
 #include <algorithm>

@@ -6,9 +6,9 @@
 #include <mutex>
 #include <vector>
 
-#include "core/error.h"
+#include "app/viewer/server.h"
+#include "base/text/error.h"
 #include "tests/support/http_client.h"
-#include "viewer/server.h"
 
 namespace wholehand {
 

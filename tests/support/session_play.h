@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/vectors.h"
-#include "live/session.h"
-#include "live/workspace.h"
+#include "device/session/session.h"
+#include "device/session/workspace.h"
 #include "tests/support/live_script.h"
 
 namespace wholehand {

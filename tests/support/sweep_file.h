@@ -8,7 +8,8 @@
 
 #include <cmath>
 
-#include "sweeps/result_file.h"
+#include "sweeps/result/output_names.h"
+#include "sweeps/result/result_file.h"
 #include "tests/support/fake_backend.h"
 #include "tests/support/result_reader.h"
 

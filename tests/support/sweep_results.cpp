@@ -9,9 +9,10 @@
 #include <filesystem>
 
 #include "core/core_backend.h"
-#include "scene/reader.h"
-#include "sweeps/hand_lists.h"
-#include "sweeps/result_file.h"
+#include "core/reader/reader.h"
+#include "sweeps/lists/hand_lists.h"
+#include "sweeps/result/output_names.h"
+#include "sweeps/result/result_file.h"
 
 namespace wholehand {
 

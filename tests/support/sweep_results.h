@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/backend.h"
-#include "report/source.h"
+#include "evidence/report/source.h"
 #include "tests/support/files.h"
 
 namespace wholehand {

@@ -12,8 +12,8 @@
 #include <sstream>
 
 #include "core/core_backend.h"
-#include "sweeps/run.h"
-#include "system/files.h"
+#include "sweeps/result/output_names.h"
+#include "sweeps/run/run.h"
 #include "tests/support/fake_backend.h"
 #include "tests/support/files.h"
 #include "tests/support/result_reader.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "live/proxy.h"
+#include "device/session/proxy.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "evidence/compare.h"
+#include "evidence/check/compare.h"
 #include "host/grip_backend.h"
-#include "sweeps/variables.h"
+#include "sweeps/plan/variables.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

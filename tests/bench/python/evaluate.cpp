@@ -10,11 +10,11 @@
 #include <sstream>
 #include <vector>
 
+#include "base/system/clock.h"
+#include "core/reader/reader.h"
+#include "core/reader/shipped.h"
 #include "host/open_backend.h"
-#include "scene/reader.h"
-#include "scene/shipped.h"
-#include "sweeps/variables.h"
-#include "system/clock.h"
+#include "sweeps/plan/variables.h"
 #include "tests/bench/cost.h"
 
 namespace wholehand {

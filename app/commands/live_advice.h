@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The advice of `wholehand live --advise`: in a thread of its own where the session has a clock, else in step with it.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "device/advice/advice_loop.h"
+#include "device/advice/stepped_advice.h"
+
+namespace wholehand {
+
+// The default device: "vulkan" where there is a Vulkan device, else "core".
+std::string default_advice_device();
+
+// A line for each thing that begins: a vessel that the hand comes near to, a grasp. It comes once there are words.
+class AdviceTeller {
+ public:
+  explicit AdviceTeller(const Scene& scene) : rate_(scene.live.rate), scene_(scene) {}
+  // Nothing: it is still the same vessel, free or held as before, or there is nothing to advise.
+  std::optional<std::string> tell(const Advice& advice);
+
+ private:
+  double rate_;
+  const Scene& scene_;
+  int vessel_ = -1;
+  bool is_held_ = false;
+};
+
+class LiveAdvice {
+ public:
+  struct Options {
+    std::string on;  // as for open_backend
+    bool has_clock = true;
+    bool is_followed = false;  // by the simulated user, who has shown()
+  };
+  // Opens the device; `scene` must outlive it. Throws Error as Adviser does.
+  LiveAdvice(const Scene& scene, const Options& options);
+
+  ShownGripSource* shown();
+  // Ticks in their order: those of a session with a clock from the recorder's thread, each one of a session without in its loop.
+  void look(std::span<const Tick> ticks);
+  void step(const Tick& tick);
+
+  // From any thread.
+  std::shared_ptr<const Advice> newest() const;
+  std::vector<std::string> lines();  // what has begun since the last call
+  std::vector<std::string> news();
+  AdviceTally tally() const;
+
+ private:
+  void open(const Scene& scene, const Options& options);
+  void tell_newest();
+
+  std::unique_ptr<AdviceLoop> loop_;  // one of these two
+  std::unique_ptr<SteppedAdvice> stepped_;
+  std::mutex mutex_;  // of the next three
+  AdviceTeller teller_;
+  std::vector<std::string> lines_;
+  std::shared_ptr<const Advice> told_;
+};
+
+// "computed on vulkan, llvmpipe (..): 312 updates of 1,024 grips on average, 9.8 a second, no two further apart than 0.15 s".
+std::string tally_words(const AdviceTally& tally);
+
+}  // namespace wholehand

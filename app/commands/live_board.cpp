@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/live_board.h"
+
+#include <utility>
+
+#include "base/system/output.h"
+#include "base/system/progress.h"
+#include "device/advice/words.h"
+
+namespace wholehand {
+
+void Board::look(std::span<const Tick> ticks) {
+  std::vector<std::string> lines;
+  for (const Tick& tick : ticks) {
+    for (std::string& line : narrator_.look(tick)) lines.push_back(std::move(line));
+  }
+  const std::string status = narrator_.status(ticks.back());
+  const std::lock_guard lock(mutex_);
+  for (std::string& line : lines) lines_.push_back(std::move(line));
+  status_ = status;
+  last_ = ticks.back();
+  count_ += static_cast<std::int64_t>(ticks.size());
+}
+
+void Board::advise(std::vector<std::string> lines, const Advice* advice) {
+  std::string words = advice ? advice_words(*advice) : "";
+  const std::lock_guard lock(mutex_);
+  for (std::string& line : lines) lines_.push_back(std::move(line));
+  advice_ = std::move(words);
+}
+
+Tick Board::last() {
+  const std::lock_guard lock(mutex_);
+  return last_;
+}
+
+std::int64_t Board::count() {
+  const std::lock_guard lock(mutex_);
+  return count_;
+}
+
+void Board::show(bool quiet) {
+  std::vector<std::string> lines;
+  std::string status;
+  {
+    const std::lock_guard lock(mutex_);
+    lines.swap(lines_);
+    status = status_;
+    if (!status.empty() && !advice_.empty()) status += "  " + advice_;
+  }
+  if (!lines.empty() && !quiet) {
+    show_status("");
+    for (const std::string& line : lines) print(line + "\n");
+  }
+  show_status(status);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Messages of a running live session, from the recorder's thread to the main one.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/commands/live_report.h"
+#include "device/advice/advice.h"
+
+namespace wholehand {
+
+class Board {
+ public:
+  // `scene` must outlive it.
+  explicit Board(const Scene& scene) : narrator_(scene) {}
+  // Ticks in their order, from one thread.
+  void look(std::span<const Tick> ticks);
+  // Prints what is new; `quiet`: only the status, and only on a terminal. Throws Error as print does.
+  void show(bool quiet);
+  // Lines of the advice, and what the status says of it; null: nothing.
+  void advise(std::vector<std::string> lines, const Advice* advice);
+  // The newest tick, and how many there were.
+  Tick last();
+  std::int64_t count();
+
+ private:
+  Narrator narrator_;
+  std::mutex mutex_;  // of all that follows
+  Tick last_;
+  std::int64_t count_ = 0;
+  std::vector<std::string> lines_;
+  std::string status_, advice_;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The report of a live session: events while it runs, numbers when it is over.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene.h"
+#include "device/advice/advice_loop.h"
+#include "device/loop/haptic_loop.h"
+#include "device/session/amounts.h"
+#include "device/session/tick.h"
+
+namespace wholehand {
+
+// Turns ticks, some of which may be left out, into lines for people.
+class Narrator {
+ public:
+  // `scene` must outlive it.
+  explicit Narrator(const Scene& scene);
+  // Lines for what has happened since the tick before: the guidance points of a new task, grasped, put down, lost,
+  // delivered, poured; each with the time, s.
+  std::vector<std::string> look(const Tick& tick);
+  // One line for a status that is overwritten: state, tilt, force, amounts.
+  std::string status(const Tick& tick) const;
+
+ private:
+  std::string stamp(const Tick& tick) const;
+  std::string guidance(const Tick& tick) const;
+  const Scene& scene_;
+  Tick last_;
+};
+
+// The report at the end, as text or as JSON (times in s). `notes`: lines on what was not permitted.
+struct LiveSummary {
+  const Scene& scene;
+  const GripperLimits& gripper;
+  const LoopReport& loop;
+  double seconds = 0;  // of the session's own time
+  bool has_clock = true;
+  std::vector<std::string> notes;
+  std::string recording;    // the file; empty: none
+  bool is_recorded = true;  // all of it
+  std::optional<AdviceTally> advice{};
+  bool is_by_signal = true;  // what was interrupted; otherwise a note says by what
+};
+std::string live_text(const LiveSummary& summary);
+std::string live_json(const LiveSummary& summary);
+
+// "live: a fault ended the session after 2.004 s: read error (unplugged); zero force was written": the line for a session that ended by a fault, with what was found,
+// what is allowed, and what became of the force. The same for a session that ended without one and left a force on the device.
+std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live, double watchdog);
+// Whether the device did not take zero force at the end.
+bool is_force_left(const LoopReport& report);
+// What became of the force at the end of a session; `watchdog`: the device's, s.
+std::string force_words(const LoopReport& report, double watchdog);
+
+}  // namespace wholehand

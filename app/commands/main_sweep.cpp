@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// wholehand-sweep: the command `sweep` alone. ./wholehand sweep builds this program and no other, so that first grips are soon there.
+#include "app/commands/command_line.h"
+#include "app/commands/commands.h"
+
+int main(int argc, char** argv) {
+  wholehand::Program program;
+  program.name = "wholehand";  // as users type it
+  program.description =
+      "The sweeps of `wholehand`, without its other commands. In a checkout, ./wholehand sweep builds and starts this program.";
+  program.footer = "Exit codes: 0 done, 2 wrong usage or input, 3 device or system failure, 130 interrupted.";
+  program.add_commands = wholehand::add_sweep_command;
+  return wholehand::end_process(wholehand::run_program(argc, argv, program));
+}

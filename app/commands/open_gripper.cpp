@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/open_gripper.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "app/program/values.h"
+#include "base/text/error.h"
+#include "core/reader/ranges.h"
+#include "core/reader/text.h"
+#include "device/grippers/hid_gripper.h"
+#include "device/grippers/omega_gripper.h"
+#include "device/grippers/osc_gripper.h"
+#include "device/grippers/usb_gripper.h"
+#include "device/simulated/sim_gripper.h"
+
+namespace wholehand {
+namespace {
+
+constexpr IntegerRange OMEGA_NUMBER{0, 31};
+constexpr int ANY_PORT = 0;  // that is free
+
+// PORT, of this machine alone, or HOST:PORT.
+HostPort parse_osc_place(const std::string& text) {
+  HostPort place{"127.0.0.1", 0};
+  std::string wrong;
+  if (text.find(':') != std::string::npos)
+    wrong = read_host_port(text, ANY_PORT, place);
+  else if (!read_port(text, ANY_PORT, place.port))
+    wrong = fmt::format("its port is not a whole number from {} to {}", ANY_PORT, LARGEST_PORT);
+  if (!wrong.empty()) {
+    throw usage_error(
+        fmt::format("--device {}: {}; allowed: osc:PORT, or osc:HOST:PORT with an address of this machine; for example "
+                    "osc:9000",
+                    in_quotes("osc:" + text), wrong));
+  }
+  return place;
+}
+
+}  // namespace
+
+std::optional<HostPort> osc_place(const std::string& device) {
+  constexpr std::string_view OSC = "osc:";
+  if (device.rfind(OSC, 0) != 0) return std::nullopt;
+  return parse_osc_place(device.substr(OSC.size()));
+}
+
+std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library,
+                                      double watchdog, ViewInput* view, const std::function<void(const std::string&)>& say) {
+  const std::size_t colon = device.find(':');
+  const std::string kind = device.substr(0, colon), which = colon == std::string::npos ? "" : device.substr(colon + 1);
+  const bool is_bare = colon == std::string::npos;
+  if (device == "sim") return open_sim(scene, seed);
+  if (device == "view") {
+    if (!view) throw usage_error("--device view: the page of the view is the gripper, and there is no view; add --view");
+    return open_view(scene, *view);
+  }
+  if (kind == "hid" && (is_bare || !which.empty())) return open_hid(which, watchdog);
+  if (kind == "usb" && (is_bare || !which.empty())) return open_usb(which, watchdog);
+  if (kind == "omega" && (is_bare || !which.empty())) {
+    const int number = is_bare ? 0 : static_cast<int>(parse_integer(which, "--device omega", OMEGA_NUMBER));
+    return open_omega(library.empty() ? scene.device.library : library, watchdog, number);
+  }
+  if (const std::optional<HostPort> place = osc_place(device)) return open_osc(*place, scene, say);
+  throw usage_error(
+      fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, osc:PORT or "
+                  "osc:HOST:PORT; `wholehand devices` lists what is there",
+                  in_quotes(device)));
+}
+
+}  // namespace wholehand

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+// A live session: a gripper's measurement in, forces and the whole posed hand out.
+#include "device/session/session.h"
+#include "device/session/reach.h"
+
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <string_view>
+#include <thread>
+
+#include "app/python/bind.h"
+#include "app/python/scene.h"
+#include "base/text/error.h"
+#include "core/vectors.h"
+#include "device/loop/gripper.h"
+#include "device/loop/guard.h"
+#include "device/session/hand_view.h"
+#include "device/session/vessel_tracker.h"
+
+namespace py = pybind11;
+
+namespace wholehand {
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// Real numbers of any kind as doubles. No text, truths or complex numbers, which NumPy would convert, and no masked arrays, whose
+// masks it would drop.
+Numbers numbers_of(const py::object& values, const char* name) {
+  const py::array array = py::array::ensure(values);
+  if (!array) throw usage_error(fmt::format("session: the {} is no array of numbers", name));
+  const bool is_masked = std::string_view(Py_TYPE(values.ptr())->tp_name) == "MaskedArray";
+  if (is_masked || std::string_view("fiu").find(array.dtype().kind()) == std::string_view::npos)
+    throw usage_error(fmt::format("session: the {} is {}; allowed: real numbers", name,
+                                  is_masked ? "a masked array" : std::string(py::str(array.dtype()))));
+  return Numbers::ensure(array);
+}
+
+template <std::size_t N>
+Numbers array_of(const std::array<double, N>& values) {
+  return Numbers({static_cast<py::ssize_t>(N)}, values.data());
+}
+
+Numbers matrix_of(const Rotation& rotation) { return Numbers({3, 3}, rotation.data()); }
+
+template <std::size_t N>
+Numbers points_of(const std::array<Triple, N>& points) {
+  return Numbers({static_cast<py::ssize_t>(N), py::ssize_t{3}}, points[0].data());
+}
+
+// What a step left behind, whole: the session may have gone on.
+struct Step {
+  std::shared_ptr<const Session> session;
+  Tick tick;
+  VesselPoses poses;
+
+  HandView hand() const { return hand_view(session->live(), tick, poses); }
+  // What the whole hand gives; NaN where nothing is held.
+  double effort() const {
+    const std::optional<HandHold> hold = hand().hold;
+    return hold ? hold->effort : Tick::NONE;
+  }
+  // A number of each vessel.
+  Numbers of_vessels(const std::array<double, LIVE_VESSELS>& values) const {
+    return Numbers(static_cast<py::ssize_t>(session->live().scene.vessels.size()), values.data());
+  }
+  py::object vessel() const {
+    if (tick.vessel < 0) return py::none();
+    return py::str(session->live().scene.vessels[static_cast<std::size_t>(tick.vessel)].name);
+  }
+};
+
+// The gaps between which the hand itself opens and closes: what a gripper has that says nothing of its own.
+std::array<double, 2> gap_range(const Scene& scene, const std::optional<std::array<double, 2>>& given) {
+  if (given) return *given;
+  if (scene.device.has_gap) return scene.device.gap;
+  const LiveScene live(scene);
+  return {live.hand.scale * live.hand.gap_closed, live.hand.scale * live.hand.gap_open};
+}
+
+class SessionHandle {
+ public:
+  SessionHandle(SceneHandle& scene, const std::optional<std::array<double, 2>>& gap) {
+    for (const double one : gap.value_or(std::array<double, 2>{}))
+      if (!std::isfinite(one)) throw usage_error("session: a gap of the gripper is not finite");
+    session_ = std::make_shared<Session>(scene.whole(), gap_range(scene.whole(), gap));
+    tracker_.emplace(session_->live().scene);
+    step_.session = session_;
+  }
+
+  // Throws Error (usage): closed, another thread's, a measurement that no gripper gives. Then the session stays as it was.
+  const Step& step(const py::object& position, const py::object& rotation, double gap, std::uint32_t buttons,
+                   std::optional<std::int64_t> tick) {
+    enter();
+    const GripperState state = state_of(position, rotation, gap, buttons);
+    const std::int64_t number = tick.value_or(last_ + 1);  // fits: last_ is LAST_TICK at most
+    if (number > LAST_TICK) throw usage_error(fmt::format("session: tick {}; allowed: up to {}", number, LAST_TICK));
+    if (number <= last_) throw usage_error(fmt::format("session: tick {} after {}; allowed: a greater one", number, last_));
+    last_ = number;
+    session_->step(state, number, step_.tick);
+    tracker_->follow(step_.tick);
+    step_.poses = tracker_->poses();
+    return step_;
+  }
+
+  // The last step.
+  const Step& last() {
+    enter();
+    if (last_ < 0) throw usage_error("session: there is no hand before the first step");
+    return step_;
+  }
+
+  void close() { session_.reset(); }
+  bool is_closed() const { return !session_; }
+  std::array<double, 2> gap() const { return is_closed() ? std::array<double, 2>{} : session_->workspace().device_gap(); }
+  double period() const { return is_closed() ? 0 : 1 / session_->live().scene.live.rate; }
+
+ private:
+  // A session belongs to the thread of its first step: two that took turns would each take the other's hand for its own.
+  void enter() {
+    if (is_closed()) throw usage_error("session: it is closed");
+    const std::thread::id here = std::this_thread::get_id();
+    if (owner_ == std::thread::id()) owner_ = here;
+    if (owner_ != here) throw usage_error("session: it belongs to the thread of its first step, and this is another one");
+  }
+
+  static GripperState state_of(const py::object& given_position, const py::object& given_rotation, double gap,
+                               std::uint32_t buttons) {
+    const Numbers position = numbers_of(given_position, "position");
+    if (position.ndim() != 1 || position.shape(0) != 3) throw usage_error("session: the position has another shape than (3,)");
+    GripperState state;
+    std::copy_n(position.data(), 3, state.position.begin());
+    if (!given_rotation.is_none()) {
+      const Numbers rotation = numbers_of(given_rotation, "rotation");
+      if (rotation.ndim() != 2 || rotation.shape(0) != 3 || rotation.shape(1) != 3)
+        throw usage_error("session: the rotation has another shape than (3, 3)");
+      std::copy_n(rotation.data(), 9, state.rotation.begin());
+    }
+    state.gap = gap;
+    state.buttons = buttons;
+    if (!is_finite(state)) throw usage_error("session: the measurement has a number that is not finite");
+    if (!is_in_reach(state))
+      throw usage_error(fmt::format("session: the measurement is out of reach; allowed: a position up to {} m, a gap up to {} m",
+                                    FURTHEST_POSITION, WIDEST_GAP));
+    if (!is_rotation(state.rotation, ROTATION_TOLERANCE))
+      throw usage_error("session: the rotation is not a rotation; allowed: unit columns at right angles, right-handed");
+    return state;
+  }
+
+  std::shared_ptr<Session> session_;
+  std::optional<VesselTracker> tracker_;
+  Step step_;
+  std::int64_t last_ = -1;
+  std::thread::id owner_;
+};
+
+std::string text_of(const Step& step) {
+  const std::string state = SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)];
+  const int vessel = step.tick.vessel;
+  const std::string of = vessel < 0 ? "" : " " + step.session->live().scene.vessels[static_cast<std::size_t>(vessel)].name;
+  return fmt::format("<Step {}: {}{}, grip force {:.3g} N>", step.tick.number, state, of, step.tick.wanted.grip);
+}
+
+void bind_step(py::module_& module) {
+  const auto number = [](auto Tick::*member) { return [member](const Step& step) { return step.tick.*member; }; };
+  const auto triple = [](auto Tick::*member) { return [member](const Step& step) { return array_of(step.tick.*member); }; };
+  py::class_<Step>(
+      module, "Step",
+      "One period of a live session: forces, states and the hand. Made by ``Session.step``.\n\n"
+      "It stays as it is when the session goes on. SI units. Forces of arm_force are in the device frame, places in the\n"
+      "world frame (+y up).")
+      .def_property_readonly("tick", number(&Tick::number), "Number of the period.")
+      .def_property_readonly(
+          "state", [](const Step& step) { return SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)]; },
+          "\"free\", \"touching\", \"lift\", \"tilt\", \"maintain\", \"slipped\", \"let go\" or \"released\".")
+      .def_property_readonly(
+          "is_held", [](const Step& step) { return is_held(step.tick.state); }, "Whether a vessel is held.")
+      .def_property_readonly("vessel", &Step::vessel,
+                             "Name of the vessel that is touched, held or on its way back; None: there is none.")
+      .def_property_readonly(
+          "arm_force", [](const Step& step) { return array_of(step.tick.wanted.arm); },
+          "What the arm is to render, N, device frame, shape (3,). The caller limits it to what the gripper can do.")
+      .def_property_readonly(
+          "grip_force", [](const Step& step) { return step.tick.wanted.grip; }, "On each finger, N; positive opens.")
+      .def_property_readonly("normal_force", number(&Tick::normal_force), "Normal force, N.")
+      .def_property_readonly("feedback_force", number(&Tick::feedback), "The same within [0, F_max], N.")
+      .def_property_readonly("user_force", number(&Tick::user_force),
+                             "The user's grip force, N: the feedback less what the torque added since the grasp.")
+      .def_property_readonly("hold_force", number(&Tick::hold_force),
+                             "With what each of two tips must press to hold the vessel, N; NaN: nothing is held.")
+      .def_property_readonly(
+          "effort", &Step::effort,
+          "Least share of the hand's strength that holds the vessel, with all contacts; inf: no force holds it;\n"
+          "NaN: nothing is held, or [strength] says efforts = false.")
+      .def_property_readonly("weight", number(&Tick::weight), "Weight of vessel and liquid, as far as it is lifted, N.")
+      .def_property_readonly("torque", number(&Tick::torque), "Torque of the held vessel, N m.")
+      .def_property_readonly("tilt", number(&Tick::tilt), "Between the vessel's axis and up, rad.")
+      .def_property_readonly("closure", number(&Tick::closure), "Closure of the hand: 0 open, 1 closed.")
+      .def_property_readonly("gap", number(&Tick::gap), "Gap of the hand, m.")
+      .def_property_readonly("grasp_height", number(&Tick::grasp_height),
+                             "Height of the middle of the tips at the grasp, m, vessel's frame; NaN: nothing is held.")
+      .def_property_readonly("flow", number(&Tick::flow), "Over the held vessel's lip, m3/s.")
+      .def_property_readonly(
+          "volume", [](const Step& step) { return step.of_vessels(step.tick.volume); },
+          "Liquid in each vessel, m3, in the order of scene.vessels.")
+      .def_property_readonly(
+          "arrived", [](const Step& step) { return step.of_vessels(step.tick.arrived); },
+          "Liquid of each vessel that has arrived in the target, m3, in the order of scene.vessels.")
+      .def_property_readonly(
+          "spilt", [](const Step& step) { return step.of_vessels(step.tick.spilt); },
+          "Liquid of each vessel that was spilt, m3, in the order of scene.vessels.")
+      .def_property_readonly(
+          "target_volume", [](const Step& step) { return target_volume(step.session->live().scene, step.tick); },
+          "Liquid in the target of the task, of all vessels together, m3; 0 without a task.")
+      .def_property_readonly("middle", triple(&Tick::middle), "Middle of the two tips, m, world frame, shape (3,).")
+      .def_property_readonly(
+          "hand_rotation", [](const Step& step) { return matrix_of(step.tick.hand_rotation); },
+          "Rotation of the gripper's axes, world frame, shape (3, 3).")
+      .def_property_readonly("vessel_place", triple(&Tick::vessel_place),
+                             "Place of the vessel's origin, m, world frame, shape (3,).")
+      .def_property_readonly(
+          "vessel_rotation", [](const Step& step) { return matrix_of(step.tick.vessel_rotation); },
+          "From the vessel's frame to the world's, shape (3, 3).")
+      .def_property_readonly(
+          "tips", [](const Step& step) { return points_of(step.tick.tips); }, "Thumb and index tip, m, world frame, shape (2, 3).")
+      .def_property_readonly("touch_mask", number(&Tick::touch_mask), "Bit j: joint j touches.")
+      .def_property_readonly("used_mask", number(&Tick::used_mask), "Bit f: finger f has a touching joint.")
+      .def_property_readonly("grasps", number(&Tick::grasps), "Grasps since the start.")
+      .def_property_readonly("lost", number(&Tick::lost), "Vessels lost since the start.")
+      .def_property_readonly("destinations", number(&Tick::destinations), "Vessels brought to their destination since the start.")
+      .def_property_readonly("is_task_done", number(&Tick::task_done), "Whether the scene's task is done.")
+      .def_property_readonly(
+          "joints", [](const Step& step) { return points_of(step.hand().proxies); },
+          "The whole hand as it is drawn, m, world frame, shape (24, 3).")
+      .def("hand", &Step::hand, "The whole hand with its wrist.")
+      .def("__repr__", &text_of);
+}
+
+std::vector<bool> touching(const HandView& hand) {
+  std::vector<bool> found;
+  for (const PointContact contact : hand.contact)
+    found.push_back(contact == PointContact::touching || contact == PointContact::projected ||
+                    contact == PointContact::tracked_touching);
+  return found;
+}
+
+void bind_hand(py::module_& module) {
+  py::class_<HandView>(module, "Hand",
+                       "The whole hand of one step: 24 joints, m, world frame (+y up). Made by ``Step.hand`` and ``Session.hand``.")
+      .def_property_readonly(
+          "joints", [](const HandView& hand) { return points_of(hand.proxies); },
+          "As it is drawn, outside of all vessels, m, world frame, shape (24, 3).")
+      .def_property_readonly(
+          "posed", [](const HandView& hand) { return points_of(hand.posed); },
+          "With its fingers on the glass, m, world frame, shape (24, 3).")
+      .def_property_readonly(
+          "rigged", [](const HandView& hand) { return points_of(hand.rigged); },
+          "On its trajectory where the gripper has it, glass or no glass, m, world frame, shape (24, 3).")
+      .def_property_readonly(
+          "wrist", [](const HandView& hand) { return array_of(hand.wrist); },
+          "Origin of the hand's frame, m, world frame, shape (3,).")
+      .def_property_readonly(
+          "rotation", [](const HandView& hand) { return matrix_of(hand.rotation); }, "Rotation of the hand's frame, shape (3, 3).")
+      .def_property_readonly("touching", &touching, "Whether each of the 24 joints touches the glass.");
+}
+
+}  // namespace
+
+void bind_session(py::module_& module) {
+  bind_hand(module);
+  bind_step(module);
+  py::class_<SessionHandle>(module, "Session")
+      .def(py::init<SceneHandle&, const std::optional<std::array<double, 2>>&>(), py::arg("scene"), py::arg("gap"),
+           py::call_guard<py::gil_scoped_release>())
+      .def("step", &SessionHandle::step, py::arg("position"), py::arg("rotation"), py::arg("gap"), py::arg("buttons"),
+           py::arg("tick"), py::return_value_policy::copy)
+      .def("last", &SessionHandle::last, py::return_value_policy::copy)
+      .def("close", &SessionHandle::close)
+      .def_property_readonly("closed", &SessionHandle::is_closed)
+      .def_property_readonly("gap", &SessionHandle::gap)
+      .def_property_readonly("period", &SessionHandle::period);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Grips in the browser: single ones, or the best of a sweep, each at any fill and tilt.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/frame.h"
+#include "app/viewer/server.h"
+#include "core/evaluator.h"
+#include "sweeps/grips/methods.h"
+
+namespace wholehand {
+
+// Where a sweep found a better grip beside one that it swept.
+struct RefinedView {
+  GripInput grip;
+  double score = 0;
+};
+
+// What the grip scores at the random deviations of a sweep.
+struct RobustView {
+  double mean = 0, low = 0;  // low: the 10th percentile
+};
+
+// A grip to be seen, what it is called there, and the score of the list that it is from; without one the core's is shown.
+struct ViewedGrip {
+  std::size_t vessel = 0;
+  GripInput grip;
+  std::string label;
+  std::optional<double> score = std::nullopt;
+  std::optional<RefinedView> refined = std::nullopt;  // beside it in words, not in the picture
+  std::optional<RobustView> robust = std::nullopt;
+};
+
+// The grips of a scene with the core's numbers. From any thread.
+class GripsView {
+ public:
+  // Evaluates them all; those that the core finds not feasible are left out, with a line in `notes` each. Throws Error: (usage) what
+  // make_core_evaluator throws, or that none is left.
+  GripsView(const Scene& scene, const std::vector<ViewedGrip>& grips, std::vector<std::string>& notes);
+  ~GripsView();
+  GripsView(const GripsView&) = delete;
+  GripsView& operator=(const GripsView&) = delete;
+
+  std::size_t size() const;
+  const GripResult& result(std::size_t grip) const;  // vessel frame, as `grip --json` has it
+
+  // A grip at a fill (of the capacity; 0 in a scene without liquid) and a tilt, rad. The vessel stands where the scene has it, is turned about
+  // the middle of the tips towards where it pours, and lifted so that neither it nor the hand is under the table.
+  ViewFrame frame(std::size_t grip, double fill, double tilt) const;
+  // scene.json and state of it, for a server; it must be outlived by this. `asked`: the fills and tilts that the page begins with and goes up
+  // to; the scene's own if nobody says otherwise. Forces and scores are those of the scene whatever is asked.
+  ViewContent content(const std::string& title, const StateAxes& asked) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A live session in the browser: frames of its moments, and the server that hands them out.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/viewer/display_loop.h"
+#include "app/viewer/scene.h"
+#include "app/viewer/server.h"
+
+namespace wholehand {
+
+class LiveView final : public Display {
+ public:
+  // `live` must outlive it. `control` takes what the page posts where it is the gripper; else empty. Throws Error as ViewServer does.
+  LiveView(const LiveScene& live, const ViewFacts& facts, std::function<void(const std::string&)> control, int port);
+
+  const std::string& address() const { return server_->address(); }
+  bool is_watched() override { return frames_.viewers() > 0; }
+  void show(const DisplayMoment& moment) noexcept override;
+  // Sends viewers why there are no more frames, and ends the server.
+  void end(const std::string& reason);
+
+ private:
+  const LiveScene& live_;
+  FrameMaker maker_;
+  FrameHub frames_;
+  std::unique_ptr<ViewServer> server_;  // last: it uses the frames
+};
+
+}  // namespace wholehand

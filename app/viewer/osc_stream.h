@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// A session for engines and patches, as Open Sound Control over UDP: docs/stream.md.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/viewer/display_loop.h"
+#include "base/system/osc_bundle.h"
+#include "base/system/udp.h"
+#include "device/session/session.h"
+#include "sweeps/grips/hand_nodes.h"
+
+namespace wholehand {
+
+// osc://HOST:PORT, of HOST an IPv6 address in brackets. Throws Error (usage) in the name of --stream.
+HostPort parse_osc_url(const std::string& url);
+
+// Sends frames and never looks whether anybody takes them.
+class OscStream final : public Display {
+ public:
+  // `live` must outlive it. Throws Error (failure): the host is not known, or there is no socket.
+  OscStream(const HostPort& target, const LiveScene& live);
+  OscStream(const OscStream&) = delete;
+  OscStream& operator=(const OscStream&) = delete;
+
+  // A line that the user must see: the session goes to another machine. Empty: it does not.
+  const std::string& note() const { return note_; }
+
+  // Sends a frame, in as many datagrams of DATAGRAM bytes as it takes. One that the system does not take at once, or that nobody
+  // listens for, is lost. Waits for nothing.
+  void show(const DisplayMoment& moment) noexcept override;
+
+  // Bytes: less than any network between two machines cuts in two, and than any receiver's buffer.
+  static constexpr std::size_t DATAGRAM = 1400;
+
+ private:
+  struct Named {
+    std::string pose, liquid;  // addresses
+    Quaternion turn{};         // that was sent last
+  };
+  void put(std::string_view address, std::span<const OscValue> values) noexcept;
+  void put(std::string_view address, std::initializer_list<OscValue> values) noexcept {
+    put(address, std::span<const OscValue>(values.begin(), values.size()));
+  }
+  void put_pose(std::string_view address, const Triple& place, const Quaternion& turn, Quaternion& before) noexcept;
+  void flush() noexcept;
+  void put_hand(const DisplayMoment& moment) noexcept;
+  void put_vessels(const Tick& tick, const VesselPoses& poses) noexcept;
+  void put_forces(const DisplayMoment& moment) noexcept;
+  void put_holding(const std::optional<HandHold>& hold) noexcept;
+  void put_task(const Tick& tick) noexcept;
+  void put_advice(const Advice& advice, const VesselPoses& poses) noexcept;
+  void put_ghost(const GhostHand& ghost) noexcept;
+
+  const LiveScene& live_;
+  std::string note_;
+  UdpAddress to_;
+  UdpSocket socket_;
+  std::array<std::string, JOINT_COUNT> joints_;
+  std::array<Quaternion, JOINT_COUNT + 1> turns_{};  // of joints and wrist that were sent last
+  std::array<std::string, JOINT_COUNT> ghost_joints_;
+  std::array<Quaternion, JOINT_COUNT + 1> ghost_turns_{};
+  std::vector<Named> vessels_;
+  std::vector<std::string> amounts_;  // addresses
+  OscBundle bundle_{DATAGRAM};
+  std::int32_t tick_ = 0;  // of the frame
+  float time_ = 0;         // s
+};
+
+}  // namespace wholehand

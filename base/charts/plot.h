@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// A chart: areas, lines and points over two axes, with a legend. For pictures of their own, as its colours do not follow a page.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/charts/axes.h"
+
+namespace wholehand {
+
+struct PlotAxis {
+  std::string label;  // with its unit
+  double low = 0, high = 1;
+  bool is_logarithmic = false, is_angle = false, has_grid = false, has_numbers = true;
+  std::vector<double> ticks{};  // empty: round ones
+};
+
+enum class MarkShape { none, disc, square, triangle, diamond };
+
+struct PlotBox {
+  double left = 0, bottom = 0, right = 0, top = 0;
+};
+
+// One thing that a plot shows, and how its legend names it.
+struct PlotLayer {
+  std::string label;                            // empty: it is not in the legend
+  std::string color;                            // "#rrggbb"
+  bool is_area = false;                         // the legend shows an area; else a line or a mark
+  std::vector<PlotBox> boxes{};                 // filled; under all lines and points
+  double line = 0;                              // width of the line through the points, units; 0: there is none
+  const char* dashes = "";                      // lengths of its dashes and gaps; empty: it is whole
+  MarkShape mark = MarkShape::none;             // of each point
+  double mark_size = 3;                         // half of its width, units
+  std::vector<std::array<double, 2>> points{};  // what has no place on the axes is a gap in the line
+};
+
+// A text beside a point, on no other note and on no mark if there is room.
+struct PlotNote {
+  double x = 0, y = 0;
+  std::string text;
+};
+
+struct Plot {
+  std::string title;  // bold, above; may be empty
+  PlotAxis x, y;
+  std::vector<PlotLayer> layers;  // the last is on top
+  std::vector<PlotNote> notes{};
+  double label_rise = 12;  // of the y axis' label above the plot, units
+};
+
+// The rectangle of the axes, units; labels, numbers and title stand outside.
+struct PlotPlace {
+  double left = 0, top = 0, right = 0, bottom = 0;
+};
+
+void put_plot(MarkupWriter& svg, const Plot& plot, const PlotPlace& place);
+
+// The labelled layers from the left to the right, in as many rows as it takes. `y`: the foot of the first row's letters. Returns
+// that of the last.
+double put_legend(MarkupWriter& svg, const std::vector<PlotLayer>& layers, double left, double y, double right);
+constexpr double LEGEND_STEP = 15;  // from row to row, units
+// How much it takes, from above its first row to below its last.
+double legend_height(const std::vector<PlotLayer>& layers, double left, double right);
+
+}  // namespace wholehand

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "base/files/file_set.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "base/files/files.h"
+#include "base/text/error.h"
+
+namespace wholehand {
+namespace {
+
+Error cannot_write(const std::string& path, int error, const char* remedy) {
+  return failure_error(fmt::format("cannot write {}: {}; {}", path, std::strerror(error), remedy));
+}
+
+// Some file systems find out only here that they have no room.
+void flush(const std::string& file, const std::string& own_name, const char* remedy) {
+  const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_flushed = opened >= 0 && (fsync(opened) == 0 || errno == EINVAL);  // EINVAL: this one cannot flush
+  const int error = errno;
+  if (opened >= 0) close(opened);
+  if (!is_flushed) throw cannot_write(own_name, error, remedy);
+}
+
+}  // namespace
+
+FileSet::~FileSet() {
+  for (const File& file : files_) std::remove(file.on_the_way.c_str());
+}
+
+std::string FileSet::name_on_the_way(const std::string& path) { return followed(path) + ".new"; }
+
+std::string FileSet::on_the_way(const std::string& path) {
+  files_.push_back({path, name_on_the_way(path)});
+  std::remove(files_.back().on_the_way.c_str());
+  return files_.back().on_the_way;
+}
+
+void FileSet::write(const std::string& path, const std::string& text, const char* remedy) {
+  const int error = write_new_file(on_the_way(path), text, false);
+  if (error != 0) throw cannot_write(path, error, remedy);
+}
+
+void FileSet::without(const std::string& path) {
+  std::erase_if(files_, [&](const File& file) {
+    if (file.path != path) return false;
+    std::remove(file.on_the_way.c_str());
+    return true;
+  });
+  absent_.push_back(path);
+}
+
+void FileSet::give_names(const char* remedy) {
+  for (const File& file : files_) flush(file.on_the_way, file.path, remedy);
+  for (const File& file : files_)
+    if (std::rename(file.on_the_way.c_str(), followed(file.path).c_str()) != 0) throw cannot_write(file.path, errno, remedy);
+  for (const std::string& path : absent_) std::remove(path.c_str());
+  for (const File& file : files_) sync_folder_of(followed(file.path));
+  files_.clear();
+}
+
+std::string FileSet::with_own_names(std::string message) const {
+  for (const File& file : files_)
+    for (std::size_t at = 0; (at = message.find(file.on_the_way, at)) != std::string::npos; at += file.path.size())
+      message.replace(at, file.on_the_way.size(), file.path);
+  return message;
+}
+
+}  // namespace wholehand

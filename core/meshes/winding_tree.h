@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Generalized winding numbers of open meshes.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/meshes/triangles.h"
+
+namespace wholehand {
+
+// Barill, Dickson, Schmidt, Levin and Jacobson, "Fast winding numbers for soups and clouds" (2018), with the first term of their
+// expansion: a cluster of triangles seen from afar is a dipole of its summed area vectors at its centre.
+class WindingTree {
+ public:
+  explicit WindingTree(const TriangleMesh& mesh);
+  // Clusters are opened that are nearer than `opening` times their radius; infinity: the exact sum.
+  double winding_number(const glm::dvec3& p, double opening) const;
+
+ private:
+  struct Node {
+    glm::dvec3 center{}, area{};        // mean weighted by area, m; summed area vectors, m2
+    double radius = 0;                  // around the centre, of a ball that holds the triangles, m
+    std::uint32_t first = 0, last = 0;  // of `order_`
+    std::uint32_t left = 0, right = 0;  // 0: a leaf
+  };
+
+  std::uint32_t build(std::uint32_t first, std::uint32_t last);
+  void measure(Node& node) const;
+  double exact(const Node& node, const glm::dvec3& p) const;
+  glm::dvec3 corner(std::uint32_t triangle, int k) const;
+
+  const TriangleMesh& mesh_;
+  std::vector<glm::dvec3> middles_;   // of the triangles
+  std::vector<std::uint32_t> order_;  // triangles, so that each node's are together
+  std::vector<Node> nodes_;           // the root is 0
+};
+
+}  // namespace wholehand

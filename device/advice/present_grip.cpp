@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "device/advice/present_grip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact.h"
+#include "core/mirror.h"
+#include "core/vectors.h"
+#include "device/advice/cloud.h"
+
+namespace wholehand {
+
+using core_f64::Mat3;
+using core_f64::Vec3;
+
+namespace {
+
+// A vessel's pose in the world of the right hand.
+struct Stance {
+  Vec3 place{};
+  Mat3 rotation{1};
+};
+
+Stance stance_of(const VesselPose& pose, Handedness handedness) {
+  return {to_vec3(mirrored(pose.place, handedness)), mirrored(to_mat3(pose.rotation), handedness)};
+}
+
+std::array<Vec3, 2> tips_in(const Tick& tick, const Stance& stance, Handedness handedness) {
+  std::array<Vec3, 2> tips;
+  for (std::size_t k = 0; k < 2; ++k)
+    tips[k] = glm::transpose(stance.rotation) * (to_vec3(mirrored(tick.proxies[k], handedness)) - stance.place);
+  return tips;
+}
+
+// How far the further of the two tips is from the surface, m.
+double away_from(const LiveScene& live, std::size_t v, const std::array<Vec3, 2>& tips) {
+  const core_f64::Hand& hand = live.hand;
+  const std::array<double, 2> radii{hand.scale * hand.radius[0][3], hand.scale * hand.radius[1][4]};
+  double away = 0;
+  for (std::size_t k = 0; k < 2; ++k) away = std::max(away, core_f64::separation_at(live.vessels[v].vessel, tips[k], radii[k]));
+  return away;
+}
+
+int vessel_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses) {
+  if (tick.vessel >= 0) return tick.vessel;
+  int nearest = -1;
+  double least = NEAR_VESSEL;
+  for (std::size_t v = 0; v < live.vessels.size(); ++v) {
+    const Handedness handedness = live.scene.hand.handedness;
+    const double away = away_from(live, v, tips_in(tick, stance_of(poses[v], handedness), handedness));
+    if (away > least) continue;
+    least = away;
+    nearest = static_cast<int>(v);
+  }
+  return nearest;
+}
+
+}  // namespace
+
+// Inverse of kernels 2 and 3's frame (core/closure.cpp): the line is nearest to the axis at the grip's height, and at roll 0 the
+// little finger's side, which is against the gripper's second axis, is below it.
+std::optional<GripInput> grip_of_tips(const std::array<Vec3, 2>& tips, const Mat3& axes) {
+  const Vec3 apart = tips[1] - tips[0];
+  const double gap = glm::length(apart);
+  const Vec3 d = gap > 1e-9 ? apart / gap : axes[0];
+  const double level = std::hypot(d.x, d.z);
+  if (level < DEGENERATE_SINE_F64) return std::nullopt;
+  const Vec3 middle = 0.5 * (tips[0] + tips[1]);
+  const Vec3 nearest = middle - ((middle.x * d.x + middle.z * d.z) / (level * level)) * d;
+  GripInput grip;
+  grip.height = nearest.y;
+  grip.azimuth = std::atan2(-d.z, d.x);
+  grip.obliquity = std::asin(std::clamp(d.y, -1.0, 1.0));
+  grip.offset = (-d.z * nearest.x + d.x * nearest.z) / level;
+  const Vec3 down = (Vec3(0, -1, 0) + d.y * d) / level;
+  grip.roll = std::atan2(glm::dot(-axes[1], glm::cross(d, down)), glm::dot(-axes[1], down));
+  return grip;
+}
+
+std::optional<Approach> approach_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses) {
+  if (tick.state == SessionState::released || is_returning(tick.state)) return std::nullopt;
+  const int vessel = vessel_of(live, tick, poses);
+  if (vessel < 0) return std::nullopt;
+  const Handedness handedness = live.scene.hand.handedness;
+  const Stance stance = stance_of(poses[static_cast<std::size_t>(vessel)], handedness);
+  const Mat3 axes = glm::transpose(stance.rotation) * mirrored(to_mat3(tick.hand_rotation), handedness);
+  const std::optional<GripInput> grip = grip_of_tips(tips_in(tick, stance, handedness), axes);
+  if (!grip) return std::nullopt;
+  const VesselData& data = live.scene.vessels[static_cast<std::size_t>(vessel)];
+  // a hand that is over the vessel, or under it, is not at it
+  if (grip->height < data.base - REACH_HEIGHT || grip->height > data.height + REACH_HEIGHT) return std::nullopt;
+  return Approach{vessel, is_held(tick.state), mirrored(*grip, handedness)};
+}
+
+}  // namespace wholehand

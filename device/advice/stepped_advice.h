@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The advice of a session without a clock: in step with its ticks, so that the same session has the same advice.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "device/advice/advice_loop.h"
+#include "device/simulated/shown_grip.h"
+
+namespace wholehand {
+
+// Every 1 / LEAST_ADVICE_RATE s of the session's time about the moment of that tick, with STEP_CLOUD grips. It is there with the
+// next such tick: it has taken that long, whatever it took.
+class SteppedAdvice final : public ShownGripSource {
+ public:
+  struct Options {
+    int threads = 0;          // of the core; 0: all
+    bool while_held = true;   // also about a vessel that is held
+    bool keeps_line = false;  // as an AdviceQuestion
+    std::size_t grips = STEP_CLOUD;
+  };
+  // Opens the device; throws Error as Adviser and LiveScene do.
+  SteppedAdvice(const Scene& scene, const std::string& on, const Options& options);
+  // With an adviser of one's own.
+  SteppedAdvice(const Scene& scene, const AdviceLoop::AdviserOpener& open, const Options& options);
+
+  // Every tick of the session in its order, from the thread of its loop, which waits. A device that fails ends the advice.
+  void look(const Tick& tick) noexcept;
+  // For the same thread.
+  bool take(std::int64_t tick, ShownGrip& grip) noexcept override;
+
+  // From any thread, as those of AdviceLoop. The tally has no times.
+  std::shared_ptr<const Advice> newest() const;
+  std::vector<std::string> news();
+  AdviceTally tally() const;
+
+ private:
+  void ask(const Tick& tick);
+
+  const LiveScene live_;
+  Options options_;
+  std::unique_ptr<Adviser> adviser_;  // none any more where it failed
+  VesselTracker tracker_;
+  std::int64_t period_;  // ticks
+  std::int64_t due_ = 0;
+  std::shared_ptr<const Advice> coming_;  // there at the next moment
+  ShownGrip coming_grip_, grip_;
+  bool is_grip_new_ = false;
+
+  mutable std::mutex mutex_;  // of all below
+  std::shared_ptr<const Advice> newest_;
+  std::vector<std::string> news_;
+  AdviceTally tally_;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Force Dimension's omega.7 and sigma.7, for the right and the left hand, through the vendor's SDK.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/loop/gripper.h"
+
+namespace wholehand {
+
+// Between the SDK's frame (+x towards the person, +y to the right, +z up; so says CHAI3D, "Haptic devices", General conventions,
+// https://chai3d.org/download/doc/html/chapter6-haptic-devices.html) and the device frame of device/session/tick.h (+x right, +y up, +z towards
+// the person): the same axes under other names, so that lengths and handedness stay.
+Triple from_dhd(const Triple& vector);
+Triple to_dhd(const Triple& vector);
+// The gripper's own axes change names likewise. The SDK's gripper opens along its own y: the index finger of a right hand is at +y, that of
+// a left hand at -y (CHAI3D, src/tools/CToolGripper.cpp), which is the +x of device/session/tick.h for both. `frame` as the SDK fills it, its
+// columns the gripper's axes.
+Rotation rotation_from_dhd(const double frame[3][3]);
+
+// Opens device `number` of those that the SDK counts (0: the first; address "omega" or "omega:NUMBER"). `library`: path of the SDK, or
+// empty (see load_dhd_library). `watchdog_s`: without a new force for that long the device drops all force, whatever has become of this
+// program; in steps of 125 us, 31.875 ms at most, and stderr reports a longer one.
+//
+// The name and what the SDK says of errors are kept to printable ASCII.
+//
+// read() answers value or error, never timeout: the SDK waits by itself and fails when the device is gone. A pose that is not finite is
+// handed on as it is, for the loop to judge. The SDK gives a measurement neither a number nor a time of its own: `sequence` counts reads, so
+// that a stale measurement looks like a device at rest, and `time` is the SDK's clock at the read.
+// write() leaves the device without force until a read has been good, and then enables force with the first write.
+// panic() calls nothing, since no call of the SDK may be made from a signal handler (they lock and allocate): it is a second thread's part, by
+// let_go_meanwhile(), and the watchdog's.
+//
+// Throws Error (usage: a watchdog that is no positive time; failure: no SDK, no such device, another session has it, another model, or
+// a device that takes no watchdog or not these maximum forces).
+std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_s, int number = 0);
+
+// Every device that the SDK counts, opened for a moment. Without SDK or without a device: one entry that says so. Does not throw.
+std::vector<GripperFound> find_omega_grippers(const std::string& library);
+
+}  // namespace wholehand

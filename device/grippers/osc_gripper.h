@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// A hand over the network in the place of a device: an engine or a tracker says where it is, as Open Sound Control over UDP, and hears the
+// forces. docs/devices.md describes the messages.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/system/udp.h"
+#include "core/scene.h"
+#include "device/loop/gripper.h"
+
+namespace wholehand {
+
+constexpr double OSC_START = 10;       // s that a session waits for its hand
+constexpr double OSC_SILENCE = 50e-3;  // s without a new state: the hand is gone
+
+// Listens at an address of this machine (port 0: any that is free) for states of a hand, and takes the first sender; the hand moves
+// between its messages as PacketMotion says. `say` gets lines for the user: where it waits, and what is unsafe. Unless a hello says
+// otherwise, its gap is that of the scene's hand and its largest forces are the paper's. Throws Error (failure): no such address, its
+// port in use, no hand for `patience`.
+std::unique_ptr<Gripper> open_osc(const HostPort& at, const Scene& scene, const std::function<void(const std::string&)>& say,
+                                  double patience = OSC_START);
+
+}  // namespace wholehand

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What a recording keeps so that a reader notices any change: a checksum for each tick, and one for all that is known of the session.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "device/recordings/classic_netcdf.h"
+
+namespace wholehand {
+
+constexpr const char* CHECKSUM = "checksum";  // a variable over the ticks, and an attribute
+
+// Sets the attribute: the checksum of what header and fixed variables say, wherever it lies in the file. The number of records is left out, as it
+// grows.
+void set_checksum(classic::Header& header, const std::string& fixed);
+bool has_right_checksum(const classic::Header& header, const std::string& fixed);
+
+// The checksums of records, in their order: of the values of a record and of those before it, wherever they lie in the record.
+class RecordChecksums {
+ public:
+  // Throws Error (usage), without the file's name, where the header has no variable for them.
+  explicit RecordChecksums(const classic::Header& header);
+
+  // Puts the checksum of the next record into it.
+  void store(char* record);
+  // Whether the next record has the right one.
+  bool is_next(const char* record);
+
+ private:
+  struct Run {
+    std::uint64_t place = 0, size = 0;
+  };
+  std::uint32_t next(const char* record);
+
+  std::vector<Run> runs_;  // of values, without the padding between them
+  std::uint64_t place_ = 0, before_ = 0;
+  std::string values_;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The grasps of a session from its ticks, one tick after the other. It keeps the ticks of one grasp and not those of the session.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "device/recordings/grasp_measure.h"
+#include "device/session/tick.h"
+
+namespace wholehand {
+
+class GraspCollector {
+ public:
+  // `rate` of the session in Hz; `force_max`: F_max, N; NaN: no grasp counts as saturated.
+  GraspCollector(double rate, double force_max) : rate_(rate), force_max_(force_max) {}
+
+  // The ticks of the session, in the order of their numbers.
+  void add(const Tick& tick);
+
+  // The session ends behind the last tick. All its grasps, in their order. To be called once, and last.
+  std::vector<GraspReport> finish();
+
+ private:
+  // For each vessel, by its number in the session.
+  using Volumes = std::array<double, LIVE_VESSELS>;  // m3
+  // A grasp whose liquid may still be in the air.
+  struct Pouring {
+    std::size_t grasp = 0;          // in grasps_
+    double arrived = 0, spilt = 0;  // before it, m3
+  };
+
+  void report(GraspOutcome outcome);
+  GraspOutcome outcome_without_loss() const;
+  void close_liquid(int vessel, const Volumes& arrived, const Volumes& spilt);
+
+  double rate_, force_max_;
+  std::vector<Tick> held_;              // of the grasp that goes on, or whose outcome is still open; empty: there is none
+  std::optional<SessionState> behind_;  // state of the tick behind these; absent: the grasp goes on
+  std::array<std::optional<Pouring>, LIVE_VESSELS> pouring_;  // the latest grasp of each vessel
+  Volumes arrived_{}, spilt_{};                               // at the last tick
+  std::vector<GraspReport> grasps_;
+};
+
+}  // namespace wholehand

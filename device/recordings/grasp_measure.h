@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What one grasp of a recorded session gives in the paper's terms. docs/session.md has every definition.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/scene.h"
+#include "device/session/tick.h"
+
+namespace wholehand {
+
+constexpr double RESPONSE_SPEED = 2e-3;         // m/s: a slower gap has come to rest,
+constexpr double RESPONSE_CALM = 50e-3;         // s: if for so long
+constexpr double SPEED_WINDOW = 20e-3;          // s: the gap's speed is the slope of a line fitted over so much
+constexpr double COURSE_WINDOW = 0.2;           // s: forces are averaged over so much before their courses are compared
+constexpr double EQUAL_FORCE = 0.1;             // N: a smaller difference counts as none
+constexpr double LEAST_ANALYSED = radians(30);  // a grasp that is tilted less is not analysed
+constexpr double MAINTAIN_CHANGE = radians(5);  // tilt that changes less is maintained
+
+struct MeanDeviation {
+  double mean = Tick::NONE, deviation = Tick::NONE;  // deviation: of a sample, NaN of fewer than two
+  std::size_t count = 0;
+};
+
+// Adds up numbers; those that are not finite are passed over.
+class MeanSum {
+ public:
+  void add(double value);
+  MeanDeviation result() const;
+
+ private:
+  std::size_t count_ = 0;
+  double mean_ = 0, squares_ = 0;  // squares: of the differences from the mean
+};
+
+// How the user's grip force changes over a tilt against what the normal force rises.
+enum class GripCourse : std::uint8_t { not_analysed, equal, more, less, complex };
+constexpr int GRIP_COURSES = 5;
+extern const std::array<const char*, GRIP_COURSES> GRIP_COURSE_NAMES;  // "", "G1", .. "G4"
+
+enum class GraspOutcome : std::uint8_t { let_go, lost, released, recording_ends };
+extern const std::array<const char*, 4> GRASP_OUTCOME_NAMES;
+
+// NaN: there is none.
+struct GraspReport {
+  int vessel = -1;
+  double start = 0, end = 0;            // of the grasp since the session's start, s; the end is that of its last tick's period
+  std::array<double, 3> duration{};     // in lift, tilt and maintain, s
+  double response_time = Tick::NONE;    // from the step of F_base until the gap is at rest, s
+  double tightened = Tick::NONE;        // grip force when it came to rest, N
+  MeanDeviation before, during, after;  // grip force in lift since then, over the tilt, and while it is maintained, N
+  double after_at_first = Tick::NONE;   // its mean over the first COURSE_WINDOW / 2 of what is maintained, N
+  double largest_tilt = 0;              // rad
+  double tilt_start = Tick::NONE;       // of the way to the tilt that is maintained, s
+  double tilt_time = Tick::NONE;        // how long that takes, s
+  double normal_increase = Tick::NONE;  // of the normal force over it, N
+  double grip_change = Tick::NONE;      // of the user's grip force over it, N
+  double turning_back = Tick::NONE;     // how far the grip force goes both up and down, beyond what the normal force does, N
+  double saturated = 0;                 // for how long the feedback is at F_max, s; while tilted: the course is not analysed
+  GripCourse course = GripCourse::not_analysed;
+  GraspOutcome outcome = GraspOutcome::let_go;
+  double guidance_distance = Tick::NONE;  // m
+  double poured = 0;                      // over the lip during the grasp, m3
+  double arrived = 0, spilt = 0;          // until the vessel's next grasp, m3
+};
+
+// What the ticks of one grasp (held, of one vessel, at least one) say by themselves: all but outcome, arrived and spilt. `rate` in
+// Hz.
+GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost);
+
+// How long a tick counts, in periods: until the next one.
+std::int64_t periods_of(std::span<const Tick> ticks, std::size_t k);
+
+// The smaller of the largest rise and the largest fall between two of the values, in this order: 0 where they go one way only.
+double turning_back(std::span<const double> values);
+
+}  // namespace wholehand

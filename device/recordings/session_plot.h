@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A session as the paper's Fig. 8 shows it: forces, tilt and grip force over time, the states shaded.
+#pragma once
+
+#include <string>
+
+#include "device/recordings/recording.h"
+#include "device/recordings/session_report.h"
+
+namespace wholehand {
+
+// The text of the picture; there is at least one tick.
+std::string session_picture(const Recording& recording, const SessionReport& report);
+
+}  // namespace wholehand

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "device/session/held_hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/grip_effort.h"
+#include "core/load.h"
+#include "core/mirror.h"
+#include "core/vectors.h"
+
+namespace wholehand {
+
+using core_f64::Mat3;
+using core_f64::Vec3;
+
+HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& pose, const std::array<Triple, JOINT_COUNT>& posed,
+                   std::uint32_t touch_mask)
+    : live_(live) {
+  const Handedness handedness = live.scene.hand.handedness;
+  place_ = to_vec3(mirrored(pose.place, handedness));
+  turn_ = mirrored(to_mat3(pose.rotation), handedness);
+  const Mat3 back = glm::transpose(turn_);
+  std::array<Vec3, JOINT_COUNT> joints;
+  for (std::size_t j = 0; j < JOINT_COUNT; ++j) joints[j] = back * (to_vec3(mirrored(posed[j], handedness)) - place_);
+  const Vec3 apart = joints[INDEX_TIP] - joints[THUMB_TIP];
+  gap_ = glm::length(apart);
+  if (gap_ > 0) pinch_ = apart / gap_;
+  scale_ = core_f64::placed_scale(live.hand, joints);
+  std::array<core_f64::PressingJoint, JOINT_COUNT> pressing;
+  const int count = core_f64::find_contacts(live.hand, live.vessels[vessel].vessel, joints, scale_, touch_mask, pressing);
+  for (int i = 0; i < count; ++i) {
+    const core_f64::ContactPoint& contact = pressing[static_cast<std::size_t>(i)].contact;
+    contacts_.push_back(contact);
+    if (contact.is_tip) tips_.push_back(contact);
+  }
+  center_ = core_f64::contacts_center(contacts_);
+}
+
+core_f64::HandStrength HeldHand::strength() const { return core_f64::load_strength(live_.scene, gap_, scale_); }
+
+Triple HeldHand::place_out(Vec3 place) const { return mirrored(to_triple(place_ + turn_ * place), live_.scene.hand.handedness); }
+
+Triple HeldHand::turned_out(Vec3 v) const { return mirrored(to_triple(turn_ * v), live_.scene.hand.handedness); }
+
+Vec3 HeldHand::up() const { return glm::transpose(turn_) * Vec3(0, 1, 0); }
+
+Vec3 HeldHand::pinch() const { return pinch_; }
+
+double held_back(const LiveScene& live, std::size_t vessel, double volume, Vec3 up) {
+  if (!(volume > 0)) return 0;
+  const double sine = std::hypot(up.x, up.z);
+  return std::min(volume, core_f64::lip_capacity(live.vessels[vessel].vessel, live.quadrature, sine, up.y));
+}
+
+core_f64::Wrench weight_of(const LiveScene& live, std::size_t vessel, double volume, Vec3 up) {
+  const core_f64::Vessel& glass = live.vessels[vessel].vessel;
+  const double sine = std::hypot(up.x, up.z);
+  const Vec3 lean = sine > 0 ? Vec3(-up.x / sine, 0, -up.z / sine) : Vec3(1, 0, 0);
+  core_f64::LiquidState liquid;
+  liquid.height = glass.floor_height;
+  double density = 0;
+  if (volume > 0) {
+    density = live.scene.liquid->density;
+    liquid = core_f64::liquid_at(glass, live.quadrature, held_back(live, vessel, volume, up), sine, up.y);
+  }
+  const core_f64::Load load = core_f64::load_with(glass, density * volume, liquid.lean, liquid.height);
+  return core_f64::wrench_at(core_f64::load_center(load, lean), -load.mass * live.scene.gravity * up);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// A hand that holds a vessel of a session, as kernel 10 takes it: where it presses, and what the vessel weighs.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/contacts.h"
+#include "core/held.h"
+#include "device/session/live_scene.h"
+#include "device/session/vessel_tracker.h"
+
+namespace wholehand {
+
+// Everything is in the vessel's own frame, in the world of the right hand; m, N.
+class HeldHand {
+ public:
+  // `vessel` is at `pose`, and `posed` are the joints that rest on it, both in the world of the scene, whose [strength] is there.
+  // `touch_mask` as a tick has it.
+  HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& pose, const std::array<Triple, JOINT_COUNT>& posed,
+           std::uint32_t touch_mask);
+
+  const std::vector<core_f64::ContactPoint>& contacts() const { return contacts_; }
+  const std::vector<core_f64::ContactPoint>& tips() const { return tips_; }  // of thumb and index finger
+  core_f64::Vec3 center() const { return center_; }                          // of the contacts
+  core_f64::HandStrength strength() const;
+
+  // Between the vessel's frame and the scene's world.
+  Triple place_out(core_f64::Vec3 place) const;
+  Triple turned_out(core_f64::Vec3 v) const;
+
+  // Up as the vessel sees it now.
+  core_f64::Vec3 up() const;
+  // The line from the thumb's tip to that of the index finger, unit; across the vessel where they are at one place.
+  core_f64::Vec3 pinch() const;
+
+ private:
+  const LiveScene& live_;
+  core_f64::Vec3 place_{};
+  core_f64::Mat3 turn_{1};
+  core_f64::Vec3 pinch_{1, 0, 0};
+  double gap_ = 0, scale_ = 1;
+  std::vector<core_f64::ContactPoint> contacts_, tips_;
+  core_f64::Vec3 center_{};
+};
+
+// The weight of a vessel with `volume` m3 of the scene's liquid (none: the empty vessel) while up is `up` in its frame. What is
+// above the lip weighs at the place of the rest, as in a Session.
+core_f64::Wrench weight_of(const LiveScene& live, std::size_t vessel, double volume, core_f64::Vec3 up);
+
+// What the vessel's lip holds back of `volume` m3 while up is `up`.
+double held_back(const LiveScene& live, std::size_t vessel, double volume, core_f64::Vec3 up);
+
+}  // namespace wholehand

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// A live session as a pure state machine: from what the gripper says to what the fingers feel, one tick after the other. The same states
+// at the same ticks give the same forces to the bit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/grip.h"
+#include "core/held.h"
+#include "device/session/live_hand.h"
+#include "device/session/live_scene.h"
+#include "device/session/pouring.h"
+#include "device/session/proxy.h"
+#include "device/session/workspace.h"
+
+namespace wholehand {
+
+class Session {
+ public:
+  // `device_gap`: closed and open gap of the device, m. Throws Error (usage) where it is no range and the scene says none.
+  Session(const Scene& scene, std::array<double, 2> device_gap);
+
+  // The tick of that number, which is greater than the one before. Fills the whole tick but read, fault, device, written and timing. Neither
+  // allocates nor throws. The state must be finite.
+  void step(const GripperState& state, std::int64_t number, Tick& tick) noexcept;
+
+  const LiveScene& live() const noexcept { return *live_; }
+  const Workspace& workspace() const noexcept { return workspace_; }
+
+ private:
+  // What is kept from the moment of a grasp. Vessel frame: `midpoint` and `direction` of the tips, their contacts' proxies.
+  struct Grasp {
+    double device_gap = 0;  // g_grasp, m
+    double normal = 0;      // F_n then, N
+    bool is_antipodal = false;
+    core_f64::Vec3 midpoint{}, direction{};
+    std::array<core_f64::Vec3, 2> proxies{};
+    core_f64::Mat3 turn{1};   // of the vessel in the gripper's axes
+    core_f64::Vec3 offset{};  // of the vessel's origin from the middle of the tips, in the gripper's axes
+    std::uint32_t touch_mask = 0, used_mask = 0;
+    double guidance_distance = Tick::NONE;
+    bool is_delivered = false;
+  };
+  struct Pose {
+    core_f64::Vec3 place{};
+    core_f64::Mat3 rotation{1};
+  };
+  // Both tips on one vessel, and its outward normals there.
+  struct Touch {
+    int vessel = -1;
+    std::array<core_f64::Vec3, 2> normals{};
+  };
+  // How the held vessel is tilted: towards `lean`, horizontal in its own frame.
+  struct Leaning {
+    core_f64::Vec3 lean{};
+    double sine = 0, cosine = 1;
+  };
+
+  void approach(const HandPose& pose, Tick& tick) noexcept;
+  bool grasp(const HandPose& pose, double device_gap, Tick& tick) noexcept;
+  std::optional<Touch> touch_of_both_tips() const noexcept;
+  std::optional<core_f64::Closing> close_on(const Touch& touch, const HandPose& pose) const noexcept;
+  void keep_grasp(const Touch& touch, const HandPose& pose, const core_f64::GripAnswer& answer) noexcept;
+  void hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept;
+  Leaning leaning_of(const Pose& vessel) const noexcept;
+  core_f64::Load run_liquid(const Pose& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept;
+  void note_delivery(core_f64::Vec3 place) noexcept;
+  void tell_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
+  bool is_open(double device_gap) const noexcept;
+  SessionState turning(double tilt) noexcept;
+  void leave(const Pose& pose) noexcept;
+  void come_back(Tick& tick) noexcept;
+  void settle_vessels() noexcept;
+  bool is_left(const Obstacles::Standing& standing) const noexcept;
+  int tasks_done() const noexcept;
+  void tell(const HandPose& pose, double closure, Tick& tick) const noexcept;
+  void tell_vessel(const Pose& pose, Tick& tick) const noexcept;
+
+  std::unique_ptr<const LiveScene> live_;  // where it is: obstacles point into it
+  Workspace workspace_;
+  Pouring pouring_;
+  Obstacles obstacles_;
+  double period_;                // s
+  std::array<double, 2> radii_;  // of thumb and index tip, m
+  std::int64_t number_ = -1;     // of the tick before; -1: none
+  std::array<core_f64::Vec3, 2> tips_{}, tips_before_{};
+  std::array<Proxy, 2> proxies_{};
+  double seconds_ = 0;  // since the tick before
+  SessionState state_ = SessionState::free;
+  int vessel_ = -1;  // touched, held or coming back
+  Grasp grasp_;
+  bool is_turning_ = false;
+  SessionState rest_ = SessionState::lift;  // when it does not turn
+  double rested_at_ = 0;                    // rad: tilt at which it came to rest
+  double turn_from_ = 0, turn_time_ = 0;    // rad, s: since when it has not changed while it turns, and for how long
+  Pose left_at_;
+  double left_for_ = 0;  // s
+  bool is_tutored_ = false;
+  int grasps_ = 0, lost_ = 0, destinations_ = 0;
+};
+
+// Constants of ours; docs/method.md, "Live".
+constexpr double TURN_STEP = 5 * PI / 180;    // rad: a tilt that changes by less is maintained (the paper's)
+constexpr double TURN_REST = 1 * PI / 180;    // rad: less than this
+constexpr double TURN_WINDOW = 0.5;           // in so many s is rest
+constexpr double OPEN_MARGIN = 0.02;          // of the device's range of gaps: so near its end the fingers are open
+constexpr double RETURN_TIME = 0.5;           // s of a vessel on its way back
+constexpr double PUT_DOWN = 15e-3;            // m: let go so near to where it stood, it was put down and not lost
+constexpr double DESTINATION_RADIUS = 30e-3;  // m
+constexpr double FULL_WEIGHT = 5e-3;          // m of lifting over which the weight comes on
+
+}  // namespace wholehand

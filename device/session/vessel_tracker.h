@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Where every vessel of a live session is. A tick has only the vessel that is touched, held or on its way back; the others are where they
+// were last.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "device/session/tick.h"
+
+namespace wholehand {
+
+// World frame: of the vessel's origin, m, and vessel to world.
+struct VesselPose {
+  Triple place{};
+  Rotation rotation{NO_ROTATION};
+};
+using VesselPoses = std::array<VesselPose, LIVE_VESSELS>;  // in the scene's order; what it has no vessel for stays as it is made
+
+// Follows a session tick by tick. Ticks that are left out may hide the end of a vessel's way.
+class VesselTracker {
+ public:
+  explicit VesselTracker(const Scene& scene);
+  void follow(const Tick& tick) noexcept;
+  const VesselPoses& poses() const noexcept { return poses_; }
+
+ private:
+  VesselPoses poses_{};
+};
+
+// Follows all ticks of a recording at once, and then knows any moment.
+class VesselHistory {
+ public:
+  // `ticks` must outlive it.
+  VesselHistory(const Scene& scene, std::span<const Tick> ticks);
+  // At a tick by its place in the recording.
+  VesselPoses at(std::size_t tick) const noexcept;
+
+ private:
+  // Ticks first .. last that have one vessel.
+  struct Stretch {
+    std::size_t first = 0, last = 0;
+  };
+  std::span<const Tick> ticks_;
+  VesselPoses start_;
+  std::array<std::vector<Stretch>, LIVE_VESSELS> stretches_;
+};
+
+}  // namespace wholehand

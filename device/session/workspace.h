@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// From a gripper's own frame to the hand in the world: [device] of a scene.
+#pragma once
+
+#include "core/real.h"
+#include "core/scene.h"
+#include "device/session/tick.h"
+
+namespace wholehand {
+
+// Where a gripper puts the hand: `middle` between the two tips, `rotation` of the gripper's axes, the hand's gap. A left hand is moved as the
+// right hand of the world mirrored in x, so these are of that world (docs/method.md).
+struct HandPose {
+  core_f64::Vec3 middle{};
+  core_f64::Mat3 rotation{1};
+  double gap = 0;  // m
+};
+
+class Workspace {
+ public:
+  // `device_gap`: closed and open gap of the device itself, m; what [device] gap_mm says comes first. `hand_gap`: g(1), g(0), m, scaled.
+  // Throws Error (usage) where the device's gap is no range.
+  Workspace(const Scene& scene, std::array<double, 2> device_gap, std::array<double, 2> hand_gap);
+
+  // Linear in place and gap, the gap kept within its ends. While the clutch button is pressed the hand stays where it is, and goes on from there.
+  HandPose map(const GripperState& state) noexcept;
+  // A state of the gripper, without clutch, buttons and numbers, at which the hand is there. The gap is kept within the hand's.
+  GripperState unmap(const HandPose& pose) const noexcept;
+  bool is_clutched() const noexcept { return is_clutched_; }
+  // The way back for a force in that world: as it is, but for the axes.
+  Triple to_device(core_f64::Vec3 force) const noexcept;
+  core_f64::Vec3 to_world(const Triple& force) const noexcept;
+  // Between that world and the scene's own: mirrored in x for a left hand. The same both ways.
+  core_f64::Vec3 across(core_f64::Vec3 v) const noexcept;
+  core_f64::Mat3 across(const core_f64::Mat3& rotation) const noexcept;
+
+  std::array<double, 2> device_gap() const noexcept { return device_gap_; }
+  double gap_slope() const noexcept { return slope_; }  // of the hand's gap by the device's
+
+ private:
+  core_f64::Mat3 axes_{1};  // device to world
+  core_f64::Vec3 origin_{};
+  double scale_ = 1;
+  Handedness handedness_ = Handedness::right;
+  int clutch_ = -1;
+  std::array<double, 2> device_gap_{}, hand_gap_{};
+  double slope_ = 1;
+  bool is_clutched_ = false;
+  core_f64::Vec3 held_{};    // where the clutch holds the hand
+  core_f64::Vec3 offset_{};  // of all clutching so far
+};
+
+// How many times the coupling's stiffness a gripper feels at its arm, which pushes two tips by `workspace_scale` of its own way, or at a
+// finger, whose tip goes `gap_slope` times as far; the greater of both.
+double coupling_slope(double workspace_scale, double gap_slope);
+
+// From 0 to 1 over 0 to 1 without a jerk at either end; constant beyond.
+double minimum_jerk(double t);
+
+}  // namespace wholehand

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Pictures of where a rendered wall settles.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "device/loop/wall_sweep.h"
+
+namespace wholehand {
+
+// Texts of pictures: rates, damping, delay and encoder; and integrators.
+std::string wall_picture(const std::vector<WallSheet>& sheets);
+std::string integrator_picture(const std::vector<WallSheet>& sheets);
+
+}  // namespace wholehand

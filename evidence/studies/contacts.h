@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The experiment of contacts (the paper's section V-A): where the hands of a population touch, and what a sample of the paper's
+// size shows of it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "evidence/studies/contact_plan.h"
+#include "evidence/studies/options.h"
+#include "evidence/studies/row.h"
+
+namespace wholehand {
+
+struct ContactStudy {
+  // Pose by pose; of each its vessels, and ALL_VESSELS where there are several.
+  std::vector<StudyRow> rows;
+  std::vector<StudyRow> sensitivity;  // without a pose
+  std::uint64_t grasps = 0;           // made, each in every pose
+};
+
+// The same bits for any number of threads. Absent: `stop` was set. Shows its progress.
+std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop);
+
+}  // namespace wholehand

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What a grasp gives to the statistics of sessions: NaN where it does not count; a share is the mean of 0 and 1. docs/study.md says
+// of which grasps each number is.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "device/recordings/grasp_measure.h"
+
+namespace wholehand {
+
+constexpr double HARD_GRIP = 8, SOFT_GRIP = 1;  // N: the paper counts people who maintain with more or less than this
+
+namespace of_grasp {
+
+constexpr double NO_VALUE = std::numeric_limits<double>::quiet_NaN();
+
+using Number = double (*)(const GraspReport&);
+
+inline double counted_if(bool counts, double value) { return counts ? value : NO_VALUE; }
+inline bool is_tilted(const GraspReport& grasp) { return grasp.largest_tilt >= LEAST_ANALYSED; }
+inline bool is_analysed(const GraspReport& grasp) { return grasp.course != GripCourse::not_analysed; }
+inline bool is_maintained(const GraspReport& grasp) { return is_tilted(grasp) && std::isfinite(grasp.after_at_first); }
+
+inline double response_time(const GraspReport& grasp) { return grasp.response_time; }
+inline double grip_stopped(const GraspReport& grasp) { return grasp.tightened; }
+inline double is_lost(const GraspReport& grasp) { return grasp.outcome == GraspOutcome::lost ? 1 : 0; }
+inline double tilt_time(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.tilt_time); }
+inline double grip_before(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.before.mean); }
+inline double grip_during(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.during.mean); }
+inline double grip_after(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.after.mean); }
+inline double maintained_time(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.duration[2]); }
+inline double is_hard(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.after_at_first > HARD_GRIP); }
+inline double is_soft(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.after_at_first < SOFT_GRIP); }
+inline double normal_increase(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.normal_increase); }
+inline double grip_change(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.grip_change); }
+inline double has_tilt(const GraspReport& grasp) { return is_tilted(grasp) ? 1 : 0; }
+inline double has_type(const GraspReport& grasp) { return counted_if(is_tilted(grasp), is_analysed(grasp)); }
+inline double is_saturated(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.saturated > 0); }
+inline double is_rising(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.grip_change > 0); }
+inline double is_falling(const GraspReport& grasp) { return counted_if(is_analysed(grasp), !(grasp.grip_change > 0)); }
+template <GripCourse COURSE>
+double has_course(const GraspReport& grasp) {
+  return counted_if(is_analysed(grasp), grasp.course == COURSE);
+}
+
+}  // namespace of_grasp
+}  // namespace wholehand

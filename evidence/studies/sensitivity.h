@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Which input of a person moves each answer of a study most.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/statistics/given_data_indices.h"
+#include "evidence/studies/row.h"
+
+namespace wholehand {
+
+// What the statistic of such a row begins with; then comes the name of the answer.
+inline constexpr const char* FIRST_ORDER_OF = "first_order_of_";
+
+// A row for each input of each output: the output's in the statistic, the input's as the subject, no pose, and ALL_VESSELS. The
+// names are as many as `indices` has inputs (person_input_names) and outputs.
+std::vector<StudyRow> sensitivity_rows(const std::string& experiment, std::span<const std::string> outputs,
+                                       std::span<const std::string> inputs, const GivenDataIndices& indices);
+
+struct InputIndex {
+  std::string input;
+  double index = 0;
+  Interval interval;
+};
+
+// The inputs that move an output most, at most MOST_INPUTS, the largest index first.
+struct OutputIndices {
+  std::string experiment, output;
+  std::vector<InputIndex> inputs;
+};
+constexpr std::size_t MOST_INPUTS = 3;
+
+// Reads the rows of sensitivity among `rows`, in their order. Leaves out inputs whose interval reaches down to 0; an output may have
+// none left.
+std::vector<OutputIndices> strongest_inputs(std::span<const StudyRow> rows);
+
+}  // namespace wholehand

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "evidence/studies/session_statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/numbers/parallel.h"
+#include "base/numbers/random_bits.h"
+#include "base/statistics/anova.h"
+#include "base/statistics/correlation.h"
+#include "base/statistics/resample.h"
+#include "base/text/error.h"
+#include "evidence/studies/grasp_numbers.h"
+#include "evidence/studies/paper_sample.h"
+
+namespace wholehand {
+namespace {
+
+using namespace of_grasp;
+
+constexpr std::uint64_t SESSION_SAMPLES = 0x73657373696f6e73;  // keeps the samples' draws from those of people
+
+using GraspList = std::vector<const GraspReport*>;
+using GraspsByVessel = std::vector<GraspList>;  // in the order of the SessionVessels
+
+// ---- statistics of grasps ----
+
+enum class Said { mean, deviation, correlation };
+
+struct Measure {
+  const char* name;
+  Said said;
+  Number number;
+  Number with = nullptr;  // of a correlation
+};
+
+// With the paper's value; NaN: it is not known.
+struct OfAll {
+  Measure measure;
+  double paper = NO_VALUE;
+};
+struct OfVessel {
+  Measure measure;
+  std::array<double, 3> paper{NO_VALUE, NO_VALUE, NO_VALUE};
+};
+
+const std::array<OfAll, 19> OF_ALL{{
+    {{"response_time_mean", Said::mean, response_time}, 0.106},
+    {{"response_time_deviation", Said::deviation, response_time}, 0.095},
+    {{"grip_stopped_mean", Said::mean, grip_stopped}, 3.76},
+    {{"grip_stopped_deviation", Said::deviation, grip_stopped}, 0.08},
+    {{"grip_after_mean", Said::mean, grip_after}, 4.87},
+    {{"grip_after_deviation", Said::deviation, grip_after}, 1.67},
+    {{"tilt_time_mean", Said::mean, tilt_time}, 3.647},
+    {{"tilt_time_deviation", Said::deviation, tilt_time}, 1.392},
+    {{"maintained_time_mean", Said::mean, maintained_time}, 4.12},
+    {{"maintained_over_8N_share", Said::mean, is_hard}, 2.0 / 61},
+    {{"maintained_under_1N_share", Said::mean, is_soft}, 3.0 / 61},
+    {{"g1_share", Said::mean, has_course<GripCourse::equal>}},
+    {{"g2_share", Said::mean, has_course<GripCourse::more>}},
+    {{"g3_share", Said::mean, has_course<GripCourse::less>}},
+    {{"g4_share", Said::mean, has_course<GripCourse::complex>}, 7.0 / 71},
+    {{"rising_share", Said::mean, is_rising}, 62.0 / 71},
+    {{"falling_share", Said::mean, is_falling}, 6.0 / 71},
+    {{"lost_share", Said::mean, is_lost}},
+    {{"correlation_before_change", Said::correlation, grip_before, grip_change}, -0.184},
+}};
+
+const std::array<OfVessel, 18> OF_VESSEL{{
+    {{"normal_increase_mean", Said::mean, normal_increase}, {0.56, 1.02, 2.33}},
+    {{"normal_increase_deviation", Said::deviation, normal_increase}, {0.29, 0.54, 0.34}},
+    {{"correlation_increase_change", Said::correlation, normal_increase, grip_change}, {-0.251, -0.223, 0.098}},
+    {{"grip_before_mean", Said::mean, grip_before}, {3.84, 3.38, 4.63}},
+    {{"grip_before_deviation", Said::deviation, grip_before}, {1.84, 1.33, 1.96}},
+    {{"grip_during_mean", Said::mean, grip_during}},
+    {{"grip_after_mean", Said::mean, grip_after}},
+    {{"response_time_mean", Said::mean, response_time}},
+    {{"grip_stopped_mean", Said::mean, grip_stopped}},
+    {{"g1_share", Said::mean, has_course<GripCourse::equal>}},
+    {{"g2_share", Said::mean, has_course<GripCourse::more>}},
+    {{"g3_share", Said::mean, has_course<GripCourse::less>}},
+    {{"g4_share", Said::mean, has_course<GripCourse::complex>}},
+    {{"rising_share", Said::mean, is_rising}},
+    {{"lost_share", Said::mean, is_lost}},
+    {{"tilted_share", Said::mean, has_tilt}},
+    {{"analysed_share", Said::mean, has_type}},
+    {{"saturated_share", Said::mean, is_saturated}},
+}};
+
+// Statistics that compare the normal increases of the vessels with each other.
+struct BetweenVessels {
+  const char* name;
+  double paper = NO_VALUE;
+};
+const std::array<BetweenVessels, 4> BETWEEN{{{"anova_f"}, {"anova_p"}, {"anova_share"}, {"ordered_as_paper", 1}}};
+
+double value_of(const Measure& measure, const GraspList& grasps) {
+  if (measure.said != Said::correlation) {
+    MeanSum sum;
+    for (const GraspReport* grasp : grasps) sum.add(measure.number(*grasp));
+    const MeanDeviation result = sum.result();
+    return measure.said == Said::mean ? result.mean : result.deviation;
+  }
+  std::vector<double> x, y;
+  for (const GraspReport* grasp : grasps) {
+    const double one = measure.number(*grasp), other = measure.with(*grasp);
+    if (!std::isfinite(one) || !std::isfinite(other)) continue;
+    x.push_back(one);
+    y.push_back(other);
+  }
+  return pearson(x, y).r.value_or(NO_VALUE);
+}
+
+// In the order of BETWEEN.
+std::array<double, BETWEEN.size()> between_vessels(const GraspsByVessel& grasps) {
+  std::vector<std::vector<double>> groups(grasps.size());
+  std::vector<double> means;
+  for (std::size_t v = 0; v < grasps.size(); ++v) {
+    MeanSum sum;
+    for (const GraspReport* grasp : grasps[v]) {
+      const double increase = normal_increase(*grasp);
+      if (std::isfinite(increase)) groups[v].push_back(increase);
+      sum.add(increase);
+    }
+    means.push_back(sum.result().mean);
+  }
+  const std::optional<Anova> anova = one_way_anova(groups);
+  // NaN is never below
+  const bool has_all = means.size() == PAPER_GRASPS.size() && std::isfinite(means[0] + means[1] + means[2]);
+  const double is_ordered = counted_if(has_all, has_all && means[0] < means[1] && means[1] < means[2]);
+  return {anova ? anova->f : NO_VALUE, anova ? anova->p : NO_VALUE, anova ? anova->share : NO_VALUE, is_ordered};
+}
+
+// All values, in the order of the rows. The population and every sample of it go through here.
+std::vector<double> values_of(const GraspsByVessel& grasps) {
+  GraspList all;
+  for (const GraspList& of_vessel : grasps) all.insert(all.end(), of_vessel.begin(), of_vessel.end());
+  std::vector<double> values;
+  for (const OfAll& statistic : OF_ALL) values.push_back(value_of(statistic.measure, all));
+  for (const double value : between_vessels(grasps)) values.push_back(value);
+  for (const GraspList& of_vessel : grasps)
+    for (const OfVessel& statistic : OF_VESSEL) values.push_back(value_of(statistic.measure, of_vessel));
+  return values;
+}
+
+// ---- the population and its samples ----
+
+class GraspPool {
+ public:
+  GraspPool(std::span<const SessionSubject> subjects, const SessionVessels& vessels) : vessels_(vessels.size()) {
+    for (const SessionSubject& subject : subjects) {
+      GraspsByVessel& grasps = subjects_.emplace_back(vessels_);
+      for (const GraspReport& grasp : subject.grasps)
+        for (std::size_t v = 0; v < vessels_; ++v)
+          if (static_cast<std::size_t>(grasp.vessel) == vessels[v].place) grasps[v].push_back(&grasp);
+    }
+  }
+
+  GraspsByVessel all() const {
+    GraspsByVessel grasps(vessels_);
+    for (std::size_t subject = 0; subject < subjects_.size(); ++subject) add(subject, grasps);
+    return grasps;
+  }
+
+  // 17 people: each once of a large population, else drawn with replacement, as for a bootstrap. Each vessel has as many of
+  // their grasps as in the paper; all where there are fewer.
+  GraspsByVessel sample(std::uint64_t seed) const {
+    std::uint64_t state = seed;
+    GraspsByVessel grasps(vessels_);
+    for (const std::size_t subject : draw_members(PAPER_PEOPLE, subjects_.size(), state)) add(subject, grasps);
+    for (std::size_t v = 0; v < vessels_; ++v) {
+      GraspList& open = grasps[v];
+      if (open.size() <= PAPER_GRASPS[v]) continue;
+      for (std::size_t k = 0; k < PAPER_GRASPS[v]; ++k) std::swap(open[k], open[k + draw_below(open.size() - k, state)]);
+      open.resize(PAPER_GRASPS[v]);
+    }
+    return grasps;
+  }
+
+ private:
+  void add(std::size_t subject, GraspsByVessel& grasps) const {
+    for (std::size_t v = 0; v < vessels_; ++v)
+      grasps[v].insert(grasps[v].end(), subjects_[subject][v].begin(), subjects_[subject][v].end());
+  }
+
+  std::size_t vessels_;
+  std::vector<GraspsByVessel> subjects_;
+};
+
+StudyRow row_of(const std::string& vessel, const std::string& statistic, double paper) {
+  StudyRow row;
+  row.experiment = "sessions";
+  row.vessel = vessel;
+  row.statistic = statistic;
+  if (!std::isnan(paper)) row.paper = paper;
+  return row;
+}
+
+// F and p of the population are those of many more grasps than a sample has.
+bool is_of_a_number_of_grasps(const StudyRow& row) { return row.statistic == "anova_f" || row.statistic == "anova_p"; }
+
+// Without values, in the order of values_of.
+std::vector<StudyRow> empty_rows(const SessionVessels& vessels, bool are_simulated) {
+  std::vector<StudyRow> rows;
+  for (const OfAll& statistic : OF_ALL) {
+    const bool is_given = are_simulated && statistic.measure.number == tilt_time;
+    rows.push_back(row_of(ALL_VESSELS, statistic.measure.name, is_given ? NO_VALUE : statistic.paper));
+  }
+  for (const BetweenVessels& statistic : BETWEEN) rows.push_back(row_of(ALL_VESSELS, statistic.name, statistic.paper));
+  for (std::size_t v = 0; v < vessels.size(); ++v)
+    for (const OfVessel& statistic : OF_VESSEL) rows.push_back(row_of(vessels[v].name, statistic.measure.name, statistic.paper[v]));
+  return rows;
+}
+
+}  // namespace
+
+SessionVessels session_vessels(const Scene& scene) {
+  SessionVessels vessels;
+  for (const std::size_t place : paper_vessels(scene, SampleVessels::any)) {
+    check_sample_name(scene, scene.vessels[place].name);
+    vessels.push_back({place, scene.vessels[place].name});
+  }
+  if (vessels.empty())
+    throw usage_error(fmt::format("{}: the scene has a task, and no vessel has a liquid; people pour from vessels with a liquid",
+                                  scene.file.empty() ? "the scene" : scene.file));
+  return vessels;
+}
+
+std::vector<StudyRow> session_rows(std::span<const SessionSubject> subjects, const SessionVessels& vessels,
+                                   const SessionSampling& sampling) {
+  const GraspPool pool(subjects, vessels);
+  std::vector<StudyRow> rows = empty_rows(vessels, sampling.are_simulated);
+  const std::vector<double> values = values_of(pool.all());
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].value = values[k];
+  if (subjects.size() >= LEAST_SUBJECTS) {
+    std::vector<std::vector<double>> samples(static_cast<std::size_t>(sampling.resamples));
+    in_parallel(samples.size(), sampling.threads, [&](std::size_t k) {
+      samples[k] = values_of(pool.sample(mixed_bits(mixed_bits(sampling.seed ^ SESSION_SAMPLES) + k)));
+    });
+    const std::vector<Interval> intervals = sample_intervals(samples);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (!std::isnan(rows[k].value) && !is_of_a_number_of_grasps(rows[k])) rows[k].interval = intervals[k];
+  }
+  StudyRow inside = row_of(ALL_VESSELS, INSIDE_SHARE, NO_VALUE);
+  inside.value = inside_share(rows);
+  rows.push_back(inside);
+  return rows;
+}
+
+}  // namespace wholehand

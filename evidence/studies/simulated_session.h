@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// One session of a virtual person, as `wholehand live` runs it, without a clock and without a recording.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/people/participant.h"
+#include "core/scene.h"
+#include "device/session/tick.h"
+#include "device/simulated/sim_user.h"
+
+namespace wholehand {
+
+constexpr double LONGEST_SESSION = 600;  // s of simulated time
+
+// What a session asks for.
+struct SimulatedSession {
+  const Scene& scene;  // with the person's own hand
+  const Participant& person;
+  std::uint64_t seed = 1;    // of the tremor
+  std::vector<SimJob> jobs;  // of the person, in their order
+  double seconds = LONGEST_SESSION;
+  ShownGripSource* shown = nullptr;  // grips that the person is shown and takes; null: none
+};
+
+// Runs it: gripper, limits, loop and session are those of `wholehand live`. `take` is given each tick; false ends the session. Also
+// ends where `stop` is set. False: it did not come to its end by itself, but by a fault, as a jump of the hand, or since it took
+// too long. What `take` throws is thrown on.
+bool run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop);
+
+// The seed of the tremor in session `k` of a person. Without scatter everybody is one person, who trembles alike too.
+std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t person, std::uint64_t k);
+
+// The jobs of the scene's person; none where the scene has nothing for that person to do.
+std::vector<SimJob> jobs_of(const Scene& scene);
+
+}  // namespace wholehand

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What a study says on the terminal.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "evidence/studies/row.h"
+
+namespace wholehand {
+
+// Experiment by experiment, whose rows must be neighbours: a line for each pose and vessel of contacts, and for other experiments a
+// line for each statistic.
+std::string study_summary(std::span<const StudyRow> rows);
+
+}  // namespace wholehand

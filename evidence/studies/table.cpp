@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "evidence/studies/table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "base/files/csv.h"
+#include "base/files/files.h"
+#include "base/system/version.h"
+#include "evidence/studies/output.h"
+#include "evidence/studies/words.h"
+#include "sweeps/plan/variables.h"
+#include "sweeps/result/result_definition.h"
+
+namespace wholehand {
+namespace {
+
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+// A correlation has a word beside its number.
+std::string word_of(const StudyRow& row) {
+  const bool is_correlation = row.statistic.starts_with("pearson_") || row.statistic.starts_with("point_biserial_") ||
+                              row.statistic.starts_with("correlation_");
+  return is_correlation ? word_of_correlation(row.value) : "";
+}
+
+void define_study(const std::string& path, const Scene& scene, const StudyOptions& options, std::span<const StudyRow> rows) {
+  ResultDefinition file(path, STUDY_REMEDY);
+  file.dimension("row", rows.size());
+  file.text(NC_GLOBAL, "Conventions", "CF-1.8");
+  file.text(NC_GLOBAL, "title", "study of people with " + (scene.name.empty() ? std::string("a scene") : scene.name));
+  file.text(NC_GLOBAL, "program", "wholehand");
+  file.text(NC_GLOBAL, "version", version());
+  file.text(NC_GLOBAL, "scene", scene.text);
+  const StudyPeople& people = options.people;
+  const std::pair<const char*, std::uint64_t> counts[] = {{"people_contacts", people.contacts},
+                                                          {"people_forces", people.forces},
+                                                          {"people_sessions", people.sessions},
+                                                          {"people_advice", people.advice}};
+  for (const auto& [name, count] : counts) file.text(NC_GLOBAL, name, fmt::format("{}", count));
+  file.text(NC_GLOBAL, "seed", fmt::format("{}", options.seed));
+  file.text(NC_GLOBAL, "resamples", fmt::format("{}", options.resamples));
+  const auto texts = [&](const char* name, const char* long_name, const std::function<std::string(const StudyRow&)>& of) {
+    ResultDefinition::Names values;
+    for (const StudyRow& row : rows) values.push_back(of(row));
+    file.strings(name, {"row"}, long_name, values);
+  };
+  const auto numbers = [&](const char* name, const char* long_name, const std::function<double(const StudyRow&)>& of) {
+    std::vector<double> values;
+    for (const StudyRow& row : rows) values.push_back(of(row));
+    file.doubles(name, {"row"}, "1", long_name, values);
+  };
+  texts("experiment", "experiment", [](const StudyRow& row) { return row.experiment; });
+  texts("pose", "pose", [](const StudyRow& row) { return row.pose; });
+  texts("vessel", "vessel, or all of the paper's sample", [](const StudyRow& row) { return row.vessel; });
+  texts("statistic", "statistic", [](const StudyRow& row) { return row.statistic; });
+  texts("subject", "what the statistic is of, as a point of the hand; empty: of all",
+        [](const StudyRow& row) { return row.subject; });
+  numbers("value", "value of the population", [](const StudyRow& row) { return row.value; });
+  numbers("low", "lower end of the 95 % interval at the paper's sample size", [](const StudyRow& row) { return row.interval.low; });
+  numbers("high", "upper end of it", [](const StudyRow& row) { return row.interval.high; });
+  numbers("paper", "the paper's value, where it is known", [](const StudyRow& row) { return row.paper.value_or(std::nan("")); });
+  std::vector<int> inside;
+  for (const StudyRow& row : rows) inside.push_back(row.inside() ? (*row.inside() ? 1 : 0) : MISSING);
+  file.integers("inside", {"row"}, "", "whether the paper's value is in the interval", inside, {{"outside", "inside"}, true});
+  texts("word", "the correlation in the paper's words", word_of);
+  file.finish({});
+}
+
+std::uint64_t dataset_room(const Scene& scene, std::span<const StudyRow> rows) {
+  constexpr std::uint64_t OF_ROW = 6 * 8 + 6 * (16 + 64), HEAD = 32 << 10;
+  return HEAD + rows.size() * OF_ROW + 2 * scene.text.size();
+}
+
+}  // namespace
+
+std::string study_csv(std::span<const StudyRow> rows) {
+  std::string text{STUDY_CSV_START};
+  for (const StudyRow& row : rows) {
+    const std::optional<bool> inside = row.inside();
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", row.experiment, row.pose, csv_text(row.vessel), row.statistic,
+                        row.subject, cell(row.value), cell(row.interval.low), cell(row.interval.high),
+                        row.paper ? cell(*row.paper) : "", inside ? (*inside ? "1" : "0") : "");
+  }
+  return text;
+}
+
+void write_study_dataset(const std::string& path, const Scene& scene, const StudyOptions& options, std::span<const StudyRow> rows) {
+  // HDF5 does not survive a disk that fills up under it
+  check_room(path, dataset_room(scene, rows), STUDY_REMEDY);
+  try {
+    define_study(path, scene, options, rows);
+  } catch (...) {
+    std::remove(path.c_str());
+    throw;
+  }
+}
+
+}  // namespace wholehand

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// study.csv and study.nc.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/scene.h"
+#include "evidence/studies/options.h"
+#include "evidence/studies/row.h"
+
+namespace wholehand {
+
+// A row for each statistic; what is absent is empty. Numbers are kept to the bit.
+std::string study_csv(std::span<const StudyRow> rows);
+
+// The same rows, with what was asked. Throws Error (failure); then no file is left.
+void write_study_dataset(const std::string& path, const Scene& scene, const StudyOptions& options, std::span<const StudyRow> rows);
+
+}  // namespace wholehand

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The page of trials: trials.html.
+#pragma once
+
+#include <string>
+
+#include "evidence/trials/page_source.h"
+
+namespace wholehand {
+
+// One self-contained file of HTML (well-formed XML too): no script, nothing that is fetched. It links to the recordings beside it.
+std::string trials_page(const TrialPageSource& source);
+
+}  // namespace wholehand

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// What trials print when they are done.
+#pragma once
+
+#include <string>
+
+#include "evidence/trials/analysis.h"
+
+namespace wholehand {
+
+// How many grips of each vessel held, what predicted it, and the bars.
+std::string trials_summary(const Scene& scene, const TrialOptions& options, const TrialAnalysis& analysis);
+
+}  // namespace wholehand

@@ -1,0 +1,1254 @@
+// SPDX-License-Identifier: MIT
+#include "sweeps/cluster/cluster_sweep.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <map>
+#include <new>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "base/files/checksum.h"
+#include "base/files/files.h"
+#include "base/files/output_lock.h"
+#include "base/system/clock.h"
+#include "base/system/output.h"
+#include "base/text/printable.h"
+#include "base/text/readable.h"
+#include "base/text/text.h"
+#include "core/candidates.h"
+#include "core/meshes/vessel.h"
+#include "host/device.h"
+#include "host/open_backend.h"
+#include "sweeps/cluster/packet.h"
+#include "sweeps/cluster/work_range.h"
+#include "sweeps/lists/hand_lists.h"
+#include "sweeps/lists/refine.h"
+#include "sweeps/lists/robust.h"
+#include "sweeps/result/output_names.h"
+#include "sweeps/result/shard.h"
+#include "sweeps/result/tally.h"
+#include "sweeps/run/auto_backend.h"
+#include "sweeps/run/sweep.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double REPORT_SHARE = 1.0 / 64;  // of the time so far: what a crash may cost, and each report takes a line in the mark
+
+constexpr const char* SHARD_LOCK_END = ".lock";
+constexpr const char* SHARED_FILES = "the result must lie on a file system that all ranks share, or ask for --shards";
+
+std::string base_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
+double since(double start) { return monotonic_now() - start; }
+
+// Grips of a vessel that were computed in one go.
+struct Piece {
+  std::uint64_t vessel = 0, first = 0, last = 0;
+  std::uint64_t group = 0;  // whose file holds them
+  GripCounts counts;
+  std::array<char, 64> checksum{};  // of what the file holds of them; empty: of nothing
+
+  void set_checksum(const std::string& text) {
+    std::memcpy(checksum.data(), text.data(), std::min(text.size(), checksum.size() - 1));
+  }
+};
+
+// Grips that a file has, and what vouches for them. A rank keeps those that it looks after.
+struct OwnStretch {
+  std::uint64_t vessel = 0, first = 0, last = 0;
+  std::uint64_t group = 0;
+  std::array<char, 40> checksum{};
+
+  OwnStretch() = default;
+  OwnStretch(std::uint64_t of_vessel, std::uint64_t from, std::uint64_t to, std::uint64_t in_group, const char* text)
+      : vessel(of_vessel), first(from), last(to), group(in_group) {
+    std::memcpy(checksum.data(), text, std::min(std::strlen(text), checksum.size() - 1));
+  }
+  Stretch stretch() const { return {first, last, checksum.data()}; }
+};
+
+struct Cell {
+  std::uint64_t number = 0;
+  double score = 0;
+};
+
+// What a rank has done so far, for the lines at the end.
+struct RankFigures {
+  std::uint64_t grips = 0;
+  double seconds = 0;
+};
+
+void put(PacketWriter& packet, const ListProgress& list) {
+  packet.put(list.chosen);
+  packet.put(list.decided.has_value());
+  packet.put(list.decided.value_or(Candidate()));
+  packet.put(list.is_complete);
+}
+
+ListProgress take_list(PacketReader& packet) {
+  ListProgress list;
+  list.chosen = packet.take_all<Candidate>();
+  const bool is_decided = packet.take<bool>();
+  const auto decided = packet.take<Candidate>();
+  if (is_decided) list.decided = decided;
+  list.is_complete = packet.take<bool>();
+  return list;
+}
+
+std::optional<Error> caught(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return failure_error("out of memory; ask for less at once");
+  } catch (const std::exception& error) {
+    return failure_error(std::string("unexpected failure: ") + error.what());
+  }
+  return std::nullopt;
+}
+
+template <class T>
+T share_value(Team& team, const T& from_leader) {
+  PacketWriter packet;
+  packet.put(from_leader);
+  const std::string bytes = team.share(packet.bytes());
+  return PacketReader(bytes).take<T>();
+}
+
+void put_error(PacketWriter& packet, const Team& team, const std::optional<Error>& error) {
+  packet.put(error ? error->code : ExitCode::done);
+  packet.put(error ? error->remedy : Remedy::none);
+  packet.put(std::string(error ? error->what() : ""));
+  packet.put(team.node());
+}
+
+std::optional<Error> take_error(PacketReader& packet, int rank) {
+  const auto code = packet.take<ExitCode>();
+  const auto remedy = packet.take<Remedy>();
+  const std::string line = packet.take_text(), node = packet.take_text();
+  if (code == ExitCode::done) return std::nullopt;
+  return Error(code, fmt::format("rank {} on {}: {}", rank, node, line), remedy);
+}
+
+// Throws on every rank what the leader knows of, if that is anything.
+void share_error(Team& team, const std::optional<Error>& known) {
+  const ExitCode code = share_value(team, known ? known->code : ExitCode::done);
+  if (code == ExitCode::done) return;
+  team.say_agreed();
+  if (team.is_leader()) throw *known;
+  throw Error(code, "");
+}
+
+// An Error of any rank is thrown by all: the leader's own, or else that of the lowest rank.
+void agree(Team& team, const std::optional<Error>& own) {
+  PacketWriter packet;
+  put_error(packet, team, own);
+  std::optional<Error> first = own;
+  team.gather(packet.bytes(), [&](int rank, const std::string& message) {
+    PacketReader reader(message);
+    const auto error = take_error(reader, rank);
+    if (!first) first = error;
+  });
+  share_error(team, first);
+}
+
+// A failure on one rank that no other knows of ends all ranks: they would wait for it for ever.
+ExitCode or_abort(Team& team, const std::function<ExitCode()>& work) {
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    if (team.is_agreed()) throw;
+    say_note(fmt::format("rank {} on {}: {}", team.rank(), team.node(), error.what()));
+    team.abort(ExitCode::failure);
+  }
+}
+
+// Several devices of the best kind on a node are dealt out among its ranks.
+std::string own_device(const Team& team, const std::string& on) {
+  const std::vector<host::DeviceInfo> devices = host::list_devices();
+  const host::DeviceInfo& chosen = host::choose_device(devices, on);
+  if (on != "vulkan") return on;
+  std::vector<std::size_t> alike;
+  for (const host::DeviceInfo& device : devices)
+    if (device.kind == chosen.kind && device.unusable.empty()) alike.push_back(device.index);
+  return fmt::format("vulkan:{}", alike[static_cast<std::size_t>(team.local_rank()) % alike.size()]);
+}
+
+class ClusterSweep final : public Sweep {
+ public:
+  ClusterSweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts, InterruptGuard& interrupt)
+      : Sweep(scene, options, parts), team_(team), interrupt_(interrupt), figures_(static_cast<std::size_t>(team.size())) {}
+
+  ExitCode run() override {
+    InterruptGuard& interrupt = interrupt_;
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::optional<OutputLock> lock;
+    bool is_complete = false;
+    agree([&] {
+      check_shard_name();
+      if (!team_.is_leader()) return;
+      is_complete = is_finished();
+      if (is_complete) return;
+      check();
+      lock.emplace(names_.lock);
+      is_complete = is_finished();  // by who had the lock until now
+    });
+    if (share_flag(is_complete)) {
+      agree([&] {
+        if (team_.is_leader()) finished();
+      });
+      return ExitCode::done;
+    }
+    agree([&] { open(); });
+    compare_ranks();
+    check_lost_mark();
+    if (!all_of(!interrupt.signalled())) {
+      if (team_.is_leader()) say_note("interrupted before the first grip; no file has changed, and the same command starts again");
+      return ExitCode::interrupted;
+    }
+    if (team_.is_leader()) say_opening();
+    const ResultContents written = contents();
+    std::unique_ptr<ResultFile> file;
+    bool is_resumed = false;
+    agree([&] {
+      if (!team_.is_leader()) return;
+      is_resumed = begin();
+      const FileStart start = is_resumed ? FileStart::resumed : options_.shards ? FileStart::sparse : FileStart::reserved;
+      file = std::make_unique<ResultFile>(names_, written, backend_->fields(), start, parts_.open_output);
+      begin_shards(*file);
+      // from now on, shards of this sweep come with its mark
+      if (options_.shards && !is_resumed) save(*file);
+    });
+    is_marked_ = share_flag(is_resumed);
+    share_groups();
+    const FilePlaces places = share_places(file.get());
+    std::optional<OutputLock> shard_lock;
+    OutputNames own_names = names_;
+    if (own_group() > 0) own_names.partial = shard_path(names_, groups_[own_group()].name);
+    bool is_there = true;
+    agree([&] {
+      if (own_group() == 0 || groups_[own_group()].ranks[0] != team_.rank()) return;
+      shard_lock.emplace(own_names.partial + SHARD_LOCK_END);
+      is_there = is_marked_ && is_shard(own_names.partial, shard_id_);
+      if (is_there) return;
+      if (begins_with(own_names.partial, SHARD_START))
+        say_notes({own_names.partial + " is a shard of another sweep: replacing it"});
+      make_shard(own_names.partial, shard_id_, layout_);
+    });
+    share_stretches(is_there);
+    agree([&] {
+      if (own_group() == 0 && access(own_names.partial.c_str(), F_OK) != 0 && errno == ENOENT)
+        throw failure_error(own_names.partial + " is not there, though rank 0 has it; " + SHARED_FILES);
+      if (!team_.is_leader())
+        file = std::make_unique<ResultFile>(own_names, written, backend_->fields(), places, parts_.open_output);
+    });
+    compare_files(*file);
+    set_lists();
+    if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (is_choosy() && !choose(*file, interrupt)) ||
+        !read_back(*file, interrupt))
+      return team_.is_leader() ? interrupted() : ExitCode::interrupted;
+    if (!team_.is_leader()) file.reset();
+    team_.meet();
+    bool is_completed = false;
+    const auto ending = [&] {
+      BestLists best(scene_.vessels.size() * plan().hand_scales());
+      agree([&] {
+        if (team_.is_leader()) best = find_best();
+      });
+      is_completed = complete_together(best, interrupt);
+      agree([&] {
+        if (!team_.is_leader()) return;
+        if (!is_completed) return save(*file);
+        finish(*file, best);
+        say_ranks();
+        say_shards();
+      });
+    };
+    if (team_.is_leader()) {
+      end(*file, ending);
+    } else {
+      ending();
+    }
+    if (is_completed) {
+      remove_unused_shard(own_names.partial);
+      return ExitCode::done;
+    }
+    return team_.is_leader() ? interrupted() : ExitCode::interrupted;
+  }
+
+ private:
+  // ---- what all do together ----
+
+  // Does the work on each rank. An Error of any of them is thrown by all.
+  void agree(const std::function<void()>& work) { wholehand::agree(team_, caught(work)); }
+  void share_error(const std::optional<Error>& known) { wholehand::share_error(team_, known); }
+
+  bool share_flag(bool from_leader) { return share_value(team_, from_leader); }
+
+  // All ranks compute the same, by the same program. They may do so with different devices; then the file names all.
+  void compare_ranks() {
+    std::map<std::string, std::string> own = identity();
+    PacketWriter packet;
+    for (const auto& [key, value] : own) packet.put(checksum_text(value.data(), value.size()));
+    for (const std::string& text : {info_.device, info_.driver, team_.node(), own.at("code"), base_name(names_.result)})
+      packet.put(text);
+    std::map<std::string, int> devices{{info_.device, 1}};
+    std::set<std::string> drivers{info_.driver};
+    devices_.push_back(info_.device);
+    std::optional<Error> unlike;
+    team_.gather(packet.bytes(), [&](int rank, const std::string& message) {
+      PacketReader reader(message);
+      std::vector<std::string> checksums;
+      for (std::size_t k = 0; k < own.size(); ++k) checksums.push_back(reader.take_text());
+      const std::string its_device = reader.take_text(), driver = reader.take_text(), node = reader.take_text(),
+                        code = reader.take_text(), result = reader.take_text();
+      std::size_t k = 0;
+      for (const auto& [key, value] : own) {
+        const std::string own_checksum = checksum_text(value.data(), value.size()), its = checksums[k++];
+        if (its == own_checksum || key == "device" || key == "driver" || unlike) continue;
+        const bool is_code = key == "code";
+        unlike = usage_error(fmt::format("rank {} on {} has another {}: {}, and rank 0 on {} has {}; start the same on every node",
+                                         rank, node, key, is_code ? code : its, team_.node(), is_code ? value : own_checksum));
+      }
+      if (!unlike && result != base_name(names_.result))
+        unlike = usage_error(fmt::format("rank {} on {} writes {}, and rank 0 on {} writes {}; name the same result on every node",
+                                         rank, node, result, team_.node(), base_name(names_.result)));
+      ++devices[its_device];
+      drivers.insert(driver);
+      devices_.push_back(its_device);
+    });
+    share_error(unlike);
+    if (team_.size() == 1) return;
+    PacketWriter names;
+    std::string all_devices, all_drivers, kinds;
+    for (const auto& [name, count] : devices) kinds += (kinds.empty() ? "" : "; ") + name;
+    for (const auto& [name, count] : devices) all_devices += fmt::format("{}{} x {}", all_devices.empty() ? "" : "; ", count, name);
+    for (const std::string& driver : drivers) all_drivers += (all_drivers.empty() ? "" : "; ") + driver;
+    names.put(all_devices);
+    names.put(all_drivers);
+    names.put(kinds);
+    const std::string bytes = team_.share(names.bytes());
+    PacketReader reader(bytes);
+    info_.device = reader.take_text();
+    info_.driver = identified_.driver = reader.take_text();
+    identified_.device = reader.take_text();
+    if (team_.is_leader() && devices.size() > 1 && info_.backend != "core")
+      say_note("the ranks have different devices: the last bits of a value depend on who computed it");
+  }
+
+  // ---- files: one for all ranks, or one for each node ----
+
+  // Ranks that write into one file.
+  struct Group {
+    std::string name;        // of their shard
+    std::vector<int> ranks;  // ascending
+    bool is_new = false;     // their file has nothing of the sweep that is resumed
+  };
+  static constexpr std::uint64_t NOWHERE = ~std::uint64_t{0};  // the shard is not here
+  static constexpr char LOST =
+      '/';  // how the mark names a shard that is lost: its node may come back with a new one of the same name
+
+  std::size_t own_group() const { return group_of_[static_cast<std::size_t>(team_.rank())]; }
+
+  std::string own_name() const { return !options_.shards ? "" : options_.shards->empty() ? team_.node() : *options_.shards; }
+
+  // Before any work: a name that is too long would be refused by the file system once the ranks are under way.
+  void check_shard_name() const {
+    if (!options_.shards) return;
+    const std::string file = base_name(shard_path(names_, own_name()) + SHARD_LOCK_END);
+    if (file.size() > NAME_MAX)
+      throw usage_error(fmt::format(
+          "{}: a file's name has {} letters at most; name another result with -o, or another shard with --shard", file, NAME_MAX));
+  }
+
+  // A sweep that is to go on, but whose mark is on another node, must not begin again: that would replace all shards.
+  void check_lost_mark() {
+    struct stat file {};
+    const bool is_new = options_.shards && options_.resume && stat(names_.mark.c_str(), &file) != 0;
+    if (!share_flag(is_new)) return;
+    agree([&] {
+      const std::string path = shard_path(names_, own_name());
+      if (!begins_with(path, SHARD_START) && (team_.is_leader() || stat(names_.mark.c_str(), &file) != 0)) return;
+      throw usage_error(
+          fmt::format("{} is here, but on the node of rank 0 there is no {}; start rank 0 where that file is, or "
+                      "begin the sweep anew without --resume",
+                      begins_with(path, SHARD_START) ? path : names_.mark, names_.mark));
+    });
+  }
+
+  void begin_shards(const ResultFile& file) {
+    if (!options_.shards) return;
+    if (!mark_.shards) mark_.shards = ShardMark{new_shard_id(), file.layout(), false};
+    mark_.shards->is_ended = false;
+  }
+
+  // The leader's group comes first. It writes into the result's file, and all others into shards.
+  void share_groups() {
+    const std::string own = own_name();
+    std::vector<std::string> names{own};
+    PacketWriter packet;
+    packet.put(own);
+    team_.gather(packet.bytes(), [&](int, const std::string& message) { names.push_back(PacketReader(message).take_text()); });
+    PacketWriter all;
+    for (const std::string& name : names) all.put(name);
+    all.put(mark_.shards ? mark_.shards->id : "");
+    const std::string bytes = team_.share(all.bytes());
+    PacketReader reader(bytes);
+    for (int rank = 0; rank < team_.size(); ++rank) {
+      const std::string name = reader.take_text();
+      const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& other) { return other.name == name; });
+      group_of_.push_back(static_cast<std::size_t>(group - groups_.begin()));
+      if (group == groups_.end()) groups_.push_back({name, {}});
+      groups_[group_of_.back()].ranks.push_back(rank);
+    }
+    shard_id_ = reader.take_text();
+  }
+
+  // A node that got no grips leaves no file.
+  void remove_unused_shard(const std::string& path) {
+    std::vector<std::uint64_t> used(groups_.size());
+    for (const VesselProgress& vessel : mark_.vessels) {
+      for (const Stretch& stretch : vessel.stretches)
+        if (const std::uint64_t group = group_of(stretch); group != NOWHERE) used[group] = 1;
+    }
+    PacketWriter packet;
+    packet.put(used);
+    const std::string bytes = team_.share(packet.bytes());
+    used = PacketReader(bytes).take_all<std::uint64_t>();
+    if (own_group() > 0 && used[own_group()] == 0 && groups_[own_group()].ranks[0] == team_.rank()) unlink(path.c_str());
+  }
+
+  // Throws where ranks of one group have opened different files of one name.
+  void compare_files(const ResultFile& file) {
+    std::vector<std::uint64_t> inodes{file.inode()};
+    std::vector<std::string> nodes{team_.node()};
+    PacketWriter packet;
+    packet.put(file.inode());
+    packet.put(team_.node());
+    team_.gather(packet.bytes(), [&](int, const std::string& message) {
+      PacketReader reader(message);
+      inodes.push_back(reader.take<std::uint64_t>());
+      nodes.push_back(reader.take_text());
+    });
+    std::optional<Error> unlike;
+    for (std::size_t rank = 0; rank < inodes.size() && !unlike; ++rank) {
+      const Group& group = groups_[group_of_[rank]];
+      const auto first = static_cast<std::size_t>(group.ranks[0]);
+      if (inodes[rank] == inodes[first]) continue;
+      const std::string path = group_of_[rank] == 0 ? names_.partial : shard_path(names_, group.name);
+      const char* remedy = options_.shards
+                               ? "who writes one shard must share a file system: give nodes other names with --shard NAME"
+                               : SHARED_FILES;
+      unlike = failure_error(
+          fmt::format("rank {} on {}: {} is another file here than on rank {}; {}", rank, nodes[rank], path, first, remedy));
+    }
+    share_error(unlike);
+  }
+
+  // Names the rank that looks after each stretch, one after the other: one that has it in its file, or, where it is nowhere, any.
+  class Turns {
+   public:
+    explicit Turns(const std::vector<Group>& groups, int ranks)
+        : groups_(groups), ranks_(static_cast<std::size_t>(ranks)), turns_(groups.size() + 1) {}
+    int next(std::uint64_t group) {
+      if (group == NOWHERE) return static_cast<int>(turns_.back()++ % ranks_);
+      const std::vector<int>& members = groups_[group].ranks;
+      return members[turns_[group]++ % members.size()];
+    }
+
+   private:
+    const std::vector<Group>& groups_;
+    std::size_t ranks_;
+    std::vector<std::size_t> turns_;
+  };
+
+  // Where the grips of a stretch lie, as far as the leader's mark and the groups tell.
+  std::uint64_t group_of(const Stretch& stretch) const {
+    if (stretch.shard.empty()) return 0;
+    for (std::size_t group = 1; group < groups_.size(); ++group)
+      if (groups_[group].name == stretch.shard) return groups_[group].is_new ? NOWHERE : group;
+    return NOWHERE;
+  }
+
+  std::string shard_of(std::uint64_t group) const { return group == 0 ? "" : groups_[group].name; }
+
+  void say_missing_shards() const {
+    std::uint64_t grips = 0;
+    std::set<std::string> names;
+    for (const VesselProgress& vessel : mark_.vessels) {
+      for (const Stretch& stretch : vessel.stretches) {
+        if (group_of(stretch) != NOWHERE) continue;
+        grips += stretch.last - stretch.first;
+        names.insert(stretch.shard.substr(stretch.shard[0] == LOST ? 1 : 0));
+      }
+    }
+    if (grips == 0) return;
+    say_note(fmt::format("no rank has the shard{} {}: computing {} again", names.size() > 1 ? "s" : "", joined(names, ", "),
+                         counted(grips, "grip")));
+  }
+
+  // The stretches of the leader's mark that no shard has, by the rank that computes them again, in its order. Marks them as lost.
+  std::vector<std::vector<Stretch*>> lost_stretches() {
+    std::vector<std::vector<Stretch*>> lost(static_cast<std::size_t>(team_.size()));
+    Turns turns(groups_, team_.size());
+    for (VesselProgress& vessel : mark_.vessels)
+      for (Stretch& stretch : vessel.stretches)
+        if (group_of(stretch) == NOWHERE) lost[static_cast<std::size_t>(turns.next(NOWHERE))].push_back(&stretch);
+    for (const auto& of_rank : lost)
+      for (Stretch* stretch : of_rank)
+        if (stretch->shard[0] != LOST) stretch->shard.insert(0, 1, LOST);
+    return lost;
+  }
+
+  // Which grips are there, where, and what vouches for them: each rank keeps what it looks after. `is_there`: this rank's file is not new.
+  void share_stretches(bool is_there) {
+    PacketWriter own;
+    own.put(is_there);
+    team_.gather(own.bytes(), [&](int rank, const std::string& message) {
+      if (!PacketReader(message).take<bool>()) groups_[group_of_[static_cast<std::size_t>(rank)]].is_new = true;
+    });
+    PacketWriter packet;
+    if (team_.is_leader()) {
+      for (const VesselProgress& vessel : mark_.vessels) packet.put(vessel.done);
+      std::vector<OwnStretch> stretches;
+      for (std::size_t v = 0; v < mark_.vessels.size(); ++v)
+        for (const Stretch& stretch : mark_.vessels[v].stretches)
+          stretches.emplace_back(v, stretch.first, stretch.last, group_of(stretch), stretch.checksum.c_str());
+      packet.put(stretches);
+    }
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    mark_.vessels.resize(scene_.vessels.size());
+    for (VesselProgress& vessel : mark_.vessels) vessel.done = reader.take<std::uint64_t>();
+    stretches_ = {};
+    Turns turns(groups_, team_.size());
+    const auto stretches = reader.take_all<OwnStretch>();
+    has_stretches_ = !stretches.empty();
+    for (const OwnStretch& stretch : stretches)
+      if (turns.next(stretch.group) == team_.rank()) stretches_.push_back(stretch);
+  }
+
+  FilePlaces share_places(const ResultFile* file) {
+    PacketWriter packet;
+    if (file) {
+      packet.put(file->places().variables);
+      packet.put(file->places().axes);
+      packet.put(file->places().height.has_value());
+      packet.put(file->places().height.value_or(0));
+      packet.put(file->places().best);
+      packet.put(file->layout().blocks);
+    }
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    FilePlaces places;
+    places.variables = reader.take_all<std::uint64_t>();
+    places.axes = reader.take_all<std::uint64_t>();
+    const bool has_height = reader.take<bool>();
+    const auto height = reader.take<std::uint64_t>();
+    if (has_height) places.height = height;
+    places.best = reader.take_all<std::uint64_t>();
+    layout_ = {plan().grips(), plan().copies(), reader.take_all<LayoutBlock>(), places.height, places.axes};
+    return places;
+  }
+
+  void set_lists() {
+    const std::size_t vessels = scene_.vessels.size();
+    eligible_.resize(vessels);
+    pending_.resize(vessels);
+    while (maps_.size() < vessels) maps_.emplace_back(plan());
+    for (const HeatMap& map : maps_) told_.push_back(map.scores());
+    for (const VesselProgress& vessel : mark_.vessels) {
+      best_.emplace_back(plan(), kept_best(), vessel.best);
+      fresh_.emplace_back(std::in_place, plan(), kept_best(), std::vector<Candidate>());
+    }
+    has_eligible_ = is_choosy() && done() == 0;
+    reported_ = done();
+  }
+
+  // Each rank reads some of the stretches back, or computes them again. From time to time the mark learns where the latter lie now. False:
+  // interrupted.
+  bool repair(ResultFile& file, InterruptGuard& interrupt) {
+    const bool is_whole = !has_stretches_ || repair_stretches(file, interrupt);
+    stretches_ = {};
+    for (Group& group : groups_) group.is_new = false;
+    return is_whole;
+  }
+
+  bool repair_stretches(ResultFile& file, InterruptGuard& interrupt) {
+    std::vector<std::vector<Stretch*>> lost;
+    if (team_.is_leader()) {
+      say_missing_shards();
+      lost = lost_stretches();
+    }
+    const bool has_lost =
+        share_flag(std::any_of(lost.begin(), lost.end(), [](const auto& stretches) { return !stretches.empty(); }));
+    agree([&] {
+      if (team_.is_leader() && has_lost) keep_mark(file);
+    });
+    bool is_whole = true;
+    for (std::size_t next = 0; is_whole && !all_of(next == stretches_.size());) {
+      last_report_ = monotonic_now();
+      std::uint64_t restored = 0;
+      std::optional<Error> failure = caught([&] {
+        for (; is_whole && next < stretches_.size() && !(has_lost && is_report_due()); next += is_whole ? 1 : 0) {
+          const OwnStretch& own = stretches_[next];
+          is_whole = own.group == NOWHERE ? restore_stretch(own.vessel, own.stretch(), file, interrupt)
+                                          : repair_stretch(own.vessel, own.stretch(), file, interrupt);
+          if (is_whole && own.group == NOWHERE) ++restored;
+        }
+      });
+      if (const auto unsynced = caught([&] { file.sync(); })) {
+        restored = 0;
+        if (!failure) failure = unsynced;
+      }
+      const bool is_moved = move_stretches(lost, restored);
+      agree([&] {
+        if (team_.is_leader() && is_moved) keep_mark(file);
+        if (failure) throw *failure;
+      });
+      is_whole = all_of(is_whole);
+    }
+    return is_whole;
+  }
+
+  // Each rank has restored `restored` more of its lost stretches: its file has them now. Tells the leader whether there are any.
+  bool move_stretches(std::vector<std::vector<Stretch*>>& lost, std::uint64_t restored) {
+    std::vector<std::uint64_t> counts{restored};
+    PacketWriter packet;
+    packet.put(restored);
+    team_.gather(packet.bytes(),
+                 [&](int, const std::string& message) { counts.push_back(PacketReader(message).take<std::uint64_t>()); });
+    bool is_moved = false;
+    for (std::size_t rank = 0; rank < lost.size(); ++rank) {
+      const auto end = lost[rank].begin() + static_cast<std::ptrdiff_t>(counts.at(rank));
+      for (auto stretch = lost[rank].begin(); stretch != end; ++stretch) (*stretch)->shard = shard_of(group_of_[rank]);
+      is_moved = is_moved || counts[rank] > 0;
+      lost[rank].erase(lost[rank].begin(), end);
+    }
+    return is_moved;
+  }
+
+  // Each rank reads back what it has written: one rank alone would take longer for it than all for the grips. False: interrupted.
+  bool read_back(ResultFile& file, InterruptGuard& interrupt) {
+    bool is_whole = true;
+    agree([&] {
+      file.drop_cached();
+      for (const OwnStretch& own : written_) is_whole = is_whole && repair_stretch(own.vessel, own.stretch(), file, interrupt);
+      if (is_whole) file.sync();
+    });
+    is_whole = all_of(is_whole);
+    agree([&] {
+      if (team_.is_leader() && !is_whole) keep_mark(file);
+    });
+    if (is_whole && groups_.size() == 1) share_checksums(file);
+    return is_whole;
+  }
+
+  // Each rank finds the checksums of some blocks of the result, for the same reason; not of the best grips, which are not there yet.
+  void share_checksums(const ResultFile& file) {
+    PacketWriter packet;
+    agree([&] {
+      if (!team_.is_leader()) return;
+      checksums_ = checksum_parts(names_.partial);
+      packet.put(checksums_.parts.size());
+      for (const ChecksumPart& part : checksums_.parts) {
+        packet.put(part.variable);
+        packet.put(part.range);
+      }
+    });
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    std::vector<ChecksumPart> parts(reader.take<std::size_t>());
+    std::vector<std::pair<ChecksumPart*, std::uint64_t>> blocks;
+    for (ChecksumPart& part : parts) {
+      part.variable = reader.take_text();
+      part.range = reader.take<FileRange>();
+      for (std::uint64_t block = 0; block < part.block_count() && !part.variable.starts_with("best_"); ++block)
+        blocks.emplace_back(&part, block);
+    }
+    const auto ranks = static_cast<std::size_t>(team_.size());
+    std::string own;
+    agree([&] {
+      for (auto k = static_cast<std::size_t>(team_.rank()); k < blocks.size(); k += ranks)
+        own += file.block_checksum(*blocks[k].first, blocks[k].second);
+    });
+    std::vector<std::string> found{own};
+    team_.gather(own, [&](int, const std::string& message) { found.push_back(message); });
+    if (!team_.is_leader()) return;
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+      blocks[k].first->blocks.push_back(found[k % ranks].substr(k / ranks * CHECKSUM_LENGTH, CHECKSUM_LENGTH));
+    for (std::size_t k = 0; k < parts.size(); ++k) checksums_.parts[k].blocks = std::move(parts[k].blocks);
+  }
+
+  bool all_of(bool own) {
+    PacketWriter packet;
+    packet.put(own);
+    team_.gather(packet.bytes(), [&](int, const std::string& message) { own = PacketReader(message).take<bool>() && own; });
+    return share_flag(own);
+  }
+
+  // ---- the counter's work ----
+
+  // Takes pieces until there are none, or until one was not finished: then nobody gets a further one. `compute` answers how many grips of a range it
+  // has done.
+  void take_pieces(const WorkRange& work, InterruptGuard& interrupt,
+                   const std::function<std::uint64_t(const GripRange&)>& compute) {
+    PieceSize size(team_.size(), work.size(), options_.piece_seconds);
+    const double began = monotonic_now();
+    std::uint64_t asked = size.next(work.size(), 0);
+    team_.ask(asked);
+    try {
+      for (std::uint64_t first = team_.answer(); first < work.size(); first = team_.answer()) {
+        const std::vector<GripRange> piece = work.piece(first, asked);
+        asked = size.next(work.size() - std::min(work.size(), first + asked), since(began));
+        team_.ask(asked);  // the next one: the answer comes while this one is computed
+        const double start = monotonic_now();
+        std::uint64_t grips = 0;
+        for (const GripRange& range : piece) {
+          const std::uint64_t done = compute(range);
+          grips += done;
+          if (done < range.last - range.first) return team_.stop_counter();
+        }
+        if (is_asked_to_end(interrupt)) return team_.stop_counter();
+        size.done(grips, since(start));
+      }
+    } catch (...) {
+      team_.stop_counter();
+      throw;
+    }
+  }
+
+  bool is_report_due() const {
+    return since(last_report_) >= std::max(options_.mark_seconds, REPORT_SHARE * since(options_.started));
+  }
+
+  // False: interrupted; the mark has what is done.
+  bool sweep(ResultFile& file, InterruptGuard& interrupt) {
+    std::vector<GripRange> left;
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
+      if (mark_.vessels[v].done < plan().grips()) left.push_back({v, mark_.vessels[v].done, plan().grips()});
+    const WorkRange work(std::move(left));
+    team_.restart_counter();
+    last_report_ = monotonic_now();
+    if (team_.is_leader()) progress_.emplace(total(), reported_, "grips", progress_sink(ProgressSink::none));
+    const std::optional<Error> failure = caught([&] {
+      take_pieces(work, interrupt, [&](const GripRange& range) { return compute(range, file, interrupt); });
+      file.sync();  // of all: passes may read what any rank wrote
+    });
+    if (!team_.is_leader()) {
+      // what is not on the disk is not reported
+      if (failure && caught([&] { file.sync(); })) pieces_.clear();
+      tell(true, failure);
+    } else {
+      if (failure) failure_ = failure;
+      while (ended_ + 1 < team_.size()) {
+        if (!listen()) Team::nap();
+        if (is_report_due() && !failure_) failure_ = caught([&] { keep_mark(file); });
+      }
+      progress_->clear();
+      if (done() < total() || failure_ || is_marked_) {
+        const std::optional<Error> unsaved = caught([&] { keep_mark(file); });
+        if (!failure_) failure_ = unsaved;
+      }
+      set_best();
+    }
+    share_error(failure_);
+    has_eligible_ = share_flag(has_eligible_);
+    return share_flag(done() == total());
+  }
+
+  // Computes a range, reporting where it is time. Answers how many of its grips are done.
+  std::uint64_t compute(const GripRange& range, ResultFile& file, InterruptGuard& interrupt) {
+    std::uint64_t first = range.first;
+    while (first < range.last) {
+      Piece piece{range.vessel, first, first, 0, {}, {}};
+      std::uint64_t delivered = 0;
+      double sink_seconds = 0;
+      std::vector<Candidate> eligible;
+      RunRequest request = grips_of(range.vessel, interrupt);
+      request.first = first;
+      request.last = range.last;
+      request.best = ranks_here() ? 0 : candidates();
+      request.sink = [&](const PlaneChunk& chunk) {
+        const double start = monotonic_now();
+        file.write(chunk);
+        count_grips(chunk, backend_->fields(), gate(range.vessel), piece.counts);
+        if (ranks_here()) {
+          eligible.clear();
+          add_eligible(chunk, backend_->fields(), eligible);
+          offer(range.vessel, eligible);
+          remember(range.vessel, eligible);
+        }
+        if (has_heat_map()) maps_[range.vessel].add(plan(), chunk, backend_->fields());
+        delivered += chunk.count;
+        if (team_.is_leader()) show(delivered);
+        if (is_report_due() || is_time_up() || team_.is_stopped()) interrupt.flag() = true;
+        sink_seconds += since(start);
+      };
+      const double start = monotonic_now();
+      const RunResult result = backend_->run(request);
+      interrupt.clear();
+      if ((delivered != result.done && !(delivered == 0 && variables_.empty())) ||
+          (result.done == 0 && !is_asked_to_end(interrupt) && !team_.is_stopped()))
+        throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, readable_number(delivered),
+                                        readable_number(result.done)));
+      if (delivered == 0) piece.counts.grips += result.done;
+      offer(range.vessel, result.best);
+      count_kernels(result.kernel_seconds, since(start) - sink_seconds);
+      own_.seconds += since(start);
+      own_.grips += result.done;
+      say_notes(result.notes);
+      first += result.done;
+      piece.last = first;
+      if (file.has_grips() && result.done > 0) {
+        piece.set_checksum(file.stretch().checksum);
+        file.end_stretch();
+        written_.emplace_back(piece.vessel, piece.first, piece.last, 0, piece.checksum.data());
+      }
+      if (result.done > 0) keep(piece);
+      if (is_report_due()) {
+        if (team_.is_leader()) {
+          keep_mark(file);
+        } else {
+          file.sync();
+          tell(false, std::nullopt);
+        }
+        last_report_ = monotonic_now();
+      }
+      if (is_asked_to_end(interrupt) || team_.is_stopped()) break;  // stopped: another rank has an error, or was interrupted
+    }
+    return first - range.first;
+  }
+
+  void count_kernels(double kernels, double waited) {
+    kernel_seconds_ += kernels;
+    wait_seconds_ += waited;
+    (team_.is_leader() ? mark_.kernel_seconds : untold_kernel_seconds_) += kernels;
+  }
+
+  void offer(std::size_t vessel, const std::vector<Candidate>& grips) {
+    for (const Candidate& grip : grips) {
+      if (!best_[vessel].takes(grip)) continue;
+      best_[vessel].offer({grip});
+      if (!team_.is_leader()) fresh_[vessel]->offer({grip});
+    }
+  }
+
+  // Up to a bound: then passes compute their grips again.
+  void remember(std::size_t vessel, const std::vector<Candidate>& eligible) {
+    if (!has_eligible_) return;
+    eligible_count_ += eligible.size();
+    has_eligible_ = eligible_count_ * sizeof(Candidate) <= options_.remembered * sizeof(double);
+    if (has_eligible_) {
+      eligible_[vessel].insert(eligible_[vessel].end(), eligible.begin(), eligible.end());
+    } else {
+      for (auto& grips : eligible_) grips = {};
+    }
+  }
+
+  std::string who() const override { return team_.size() > 1 ? fmt::format("rank {} on {}: ", team_.rank(), team_.node()) : ""; }
+
+  void say_notes(std::vector<std::string> notes) {
+    for (std::string& line : notes) line = who() + line;
+    say_once(notes, progress_ ? &*progress_ : nullptr);
+  }
+
+  // ---- reports to the leader ----
+
+  void keep(const Piece& piece) {
+    if (!team_.is_leader()) {
+      pieces_.push_back(piece);
+      return;
+    }
+    pending_[piece.vessel][piece.first] = piece;
+    reported_ += piece.last - piece.first;
+    advance(piece.vessel);
+    figures_[0] = own_;
+  }
+
+  // Pieces that follow the done grips without a gap join them. Pieces after a gap wait: a mark knows only grips without gaps.
+  void advance(std::size_t vessel) {
+    VesselProgress& progress = mark_.vessels[vessel];
+    auto& pending = pending_[vessel];
+    while (!pending.empty() && pending.begin()->first == progress.done) {
+      const Piece& piece = pending.begin()->second;
+      progress.done = piece.last;
+      progress.counts += piece.counts;
+      if (piece.checksum[0] != '\0')
+        progress.stretches.push_back({piece.first, piece.last, piece.checksum.data(), shard_of(piece.group)});
+      pending.erase(pending.begin());
+    }
+  }
+
+  // Everything since the last report; what it names is on the disk.
+  void tell(bool is_last, const std::optional<Error>& failure) {
+    PacketWriter packet;
+    packet.put(is_last);
+    put_error(packet, team_, failure);
+    packet.put(has_eligible_);
+    packet.put(own_);
+    packet.put(std::exchange(untold_kernel_seconds_, 0));
+    packet.put(std::exchange(pieces_, {}));
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      packet.put(fresh_[v]->all());
+      fresh_[v].emplace(plan(), kept_best(), std::vector<Candidate>());
+      std::vector<Cell> cells;
+      for (std::size_t k = 0; has_heat_map() && k < told_[v].size(); ++k) {
+        const double now = maps_[v].scores()[k];
+        if (std::isnan(now) || now == told_[v][k]) continue;
+        cells.push_back({k, now});
+        told_[v][k] = now;
+      }
+      packet.put(cells);
+    }
+    team_.send(packet.bytes());
+  }
+
+  // Takes a report, if one is there.
+  bool listen() {
+    std::string message;
+    int from = 0;
+    if (!team_.receive(message, from)) return false;
+    PacketReader packet(message);
+    ended_ += packet.take<bool>() ? 1 : 0;
+    const auto failure = take_error(packet, from);
+    if (!failure_) failure_ = failure;
+    has_eligible_ = packet.take<bool>() && has_eligible_;
+    figures_[static_cast<std::size_t>(from)] = packet.take<RankFigures>();
+    mark_.kernel_seconds += packet.take<double>();
+    for (Piece& piece : packet.take_all<Piece>()) {
+      piece.group = group_of_[static_cast<std::size_t>(from)];
+      pending_[piece.vessel][piece.first] = piece;
+      reported_ += piece.last - piece.first;
+    }
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      best_[v].offer(packet.take_all<Candidate>());
+      for (const Cell& cell : packet.take_all<Cell>()) maps_[v].raise(cell.number, cell.score);
+      advance(v);
+    }
+    return true;
+  }
+
+  void show(std::uint64_t under_way) {
+    while (listen()) {
+    }
+    if (progress_->is_due()) progress_->update(rate_text(), reported_ + under_way);
+  }
+
+  // "3 x core, 1 thread 12.3 thousand grips/s".
+  std::string rate_text() const {
+    std::map<std::string, std::array<double, 2>> rates;  // ranks, and grips a second of all
+    for (std::size_t rank = 0; rank < figures_.size(); ++rank) {
+      auto& [count, rate] = rates[devices_[rank]];
+      count += 1;
+      if (figures_[rank].seconds > 0) rate += static_cast<double>(figures_[rank].grips) / figures_[rank].seconds;
+    }
+    std::string text;
+    for (const auto& [device, sum] : rates)
+      text += fmt::format("{}{:.0f} x {} {} grips/s", text.empty() ? "" : "; ", sum[0], device, readable_number(sum[1]));
+    return text;
+  }
+
+  void say_ranks() const {
+    if (team_.size() > 1) print(fmt::format("{} ranks: {}\n", team_.size(), rate_text()));
+  }
+
+  void say_shards() const {
+    if (!has_shards()) return;
+    std::set<std::string> files;
+    for (const VesselProgress& vessel : mark_.vessels)
+      for (const Stretch& stretch : vessel.stretches)
+        if (!stretch.shard.empty()) files.insert(shard_path(names_, stretch.shard));
+    print(one_line(fmt::format("the other grips lie in {}; once all are in one folder, `wholehand merge {}` makes one file",
+                               joined(files, ", "), names_.result)) +
+          "\n");
+  }
+
+  // The best of what the mark knows to be done.
+  void set_best() {
+    for (std::size_t v = 0; v < best_.size(); ++v) {
+      VesselProgress& progress = mark_.vessels[v];
+      if (!progress.lists.empty()) continue;  // they are chosen
+      progress.best.clear();
+      for (const Candidate& grip : best_[v].all())
+        if (grip.index < progress.done) progress.best.push_back(grip);
+    }
+  }
+
+  void keep_mark(ResultFile& file) {
+    set_best();
+    save(file);
+    last_report_ = monotonic_now();
+  }
+
+  // ---- lists of grips that differ ----
+
+  bool choose(ResultFile& file, InterruptGuard& interrupt) {
+    if (options_.shards) share_stretches(true);
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      VesselProgress& vessel = mark_.vessels[v];
+      const bool is_first = share_flag(vessel.lists.empty());
+      ListChooser chooser(plan(), evaluator_.get(), v, list_request(), vessel.lists);
+      if (team_.is_leader() && is_first) chooser.offer(vessel.best);
+      if (is_first) end_pass_together(chooser, vessel);
+      while (!share_flag(chooser.is_complete())) {
+        const bool is_passed = pass(v, chooser, file, interrupt);
+        if (is_passed) end_pass_together(chooser, vessel);
+        agree([&] {
+          if (team_.is_leader() && (!is_passed || is_report_due())) keep_mark(file);
+        });
+        if (!is_passed) return false;
+      }
+    }
+    stretches_ = {};
+    return true;
+  }
+
+  // The leader decides, and all ranks find the hands that it asks for.
+  void end_pass_together(ListChooser& chooser, VesselProgress& vessel) {
+    const auto ranks = static_cast<std::size_t>(team_.size()), rank = static_cast<std::size_t>(team_.rank());
+    const auto own_part = [&](const std::vector<Candidate>& grips, std::size_t of) {
+      std::vector<Candidate> part;
+      for (std::size_t i = of; i < grips.size(); i += ranks) part.push_back(grips[i]);
+      return part;
+    };
+    if (!team_.is_leader()) {
+      for (;;) {
+        const std::string bytes = team_.share("");
+        const auto grips = PacketReader(bytes).take_all<Candidate>();
+        if (grips.empty()) return;
+        std::vector<FoundHand> found;
+        for (const auto& hand : chooser.hands_of(own_part(grips, rank)))
+          found.push_back({hand.has_value(), hand.value_or(PosedHand())});
+        PacketWriter packet;
+        packet.put(found);
+        team_.send(packet.bytes());
+      }
+    }
+    const auto ask = [&](const std::vector<Candidate>& grips) {
+      PacketWriter packet;
+      packet.put(grips);
+      team_.share(packet.bytes());
+    };
+    end_pass(chooser, vessel, [&](const std::vector<Candidate>& grips) {
+      ask(grips);
+      ListChooser::Hands hands(grips.size());
+      const ListChooser::Hands own = chooser.hands_of(own_part(grips, 0));
+      for (std::size_t k = 0; k < own.size(); ++k) hands[k * ranks] = own[k];
+      for (std::size_t other = 1; other < ranks; ++other) {
+        const std::string message = team_.wait_for(static_cast<int>(other));
+        const auto found = PacketReader(message).take_all<FoundHand>();
+        for (std::size_t k = 0; k < found.size(); ++k)
+          if (found[k].is_there) hands.at(k * ranks + other) = found[k].hand;
+      }
+      return hands;
+    });
+    ask({});
+  }
+
+  // All grips of a vessel once more, by all ranks: from their memories, or else from the file, or else computed again. The file matters to a
+  // sweep of several sessions, each shorter than what the grips take. False: interrupted.
+  bool pass(std::size_t v, ListChooser& leaders, const ResultFile& file, InterruptGuard& interrupt) {
+    std::vector<ListProgress> lists(plan().hand_scales());
+    PacketWriter packet;
+    if (team_.is_leader())
+      for (const ListProgress& list : leaders.progress()) put(packet, list);
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    for (ListProgress& list : lists) list = take_list(reader);
+    ListChooser own(plan(), evaluator_.get(), v, list_request(), lists);
+    std::uint64_t delivered = 0;
+    if (!has_eligible_) team_.restart_counter();
+    agree([&] {
+      if (has_eligible_) {
+        own.offer(eligible_[v]);
+      } else if (options_.shards && file.has_eligible()) {
+        for (const OwnStretch& stretch : stretches_)
+          if (stretch.vessel == v) delivered += read_range({v, stretch.first, stretch.last}, own, file);
+      } else {
+        take_pieces(WorkRange({{v, 0, plan().grips()}}), interrupt, [&](const GripRange& range) {
+          const std::uint64_t done = file.has_eligible() ? read_range(range, own, file) : pass_range(range, own, interrupt);
+          delivered += done;
+          return done;
+        });
+      }
+    });
+    PacketWriter found;
+    found.put(delivered);
+    found.put(own.open_grips());
+    if (team_.is_leader()) leaders.add_open(own.open_grips());
+    team_.gather(found.bytes(), [&](int, const std::string& message) {
+      PacketReader grips(message);
+      delivered += grips.take<std::uint64_t>();
+      leaders.add_open(grips.take_all<Candidate>());
+    });
+    return share_flag((has_eligible_ && !is_asked_to_end(interrupt)) || delivered == plan().grips());
+  }
+
+  static std::uint64_t read_range(const GripRange& range, ListChooser& own, const ResultFile& file) {
+    constexpr std::uint64_t AT_ONCE = 1 << 18;  // grips: memory does not grow with the sweep
+    for (std::uint64_t first = range.first; first < range.last; first += AT_ONCE)
+      own.offer(file.eligible(range.vessel, first, std::min(range.last, first + AT_ONCE)));
+    return range.last - range.first;
+  }
+
+  std::uint64_t pass_range(const GripRange& range, ListChooser& own, InterruptGuard& interrupt) {
+    RunRequest request = grips_of(range.vessel, interrupt);
+    request.first = range.first;
+    request.last = range.last;
+    std::vector<Candidate> eligible;
+    request.sink = [&](const PlaneChunk& chunk) {
+      eligible.clear();
+      add_eligible(chunk, backend_->fields(), eligible);
+      own.offer(eligible);
+      if (is_time_up() || team_.is_stopped()) interrupt.flag() = true;
+    };
+    const double start = monotonic_now();
+    const RunResult result = backend_->run(request);
+    count_kernels(result.kernel_seconds, since(start));
+    say_notes(result.notes);
+    return result.done;
+  }
+
+  // ---- figures of the best ----
+
+  struct CompletedGrip {
+    std::uint64_t list = 0;
+    Candidate candidate;
+    GripInput refined{};
+    double refined_score = 0;
+    RobustScore robust{};
+  };
+
+  // Each rank chooses, refines and scores the grips of some of the lists. False: interrupted.
+  bool complete_together(BestLists& best, InterruptGuard& interrupt) {
+    PacketWriter packet;
+    for (const auto& list : best) {
+      std::vector<Candidate> grips;
+      for (const BestGrip& grip : list) grips.push_back(grip.candidate);
+      packet.put(grips);
+    }
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    BestLists own(best.size());
+    for (std::size_t list = 0; list < best.size(); ++list) {
+      const auto grips = reader.take_all<Candidate>();
+      if (list % static_cast<std::size_t>(team_.size()) != static_cast<std::size_t>(team_.rank())) continue;
+      for (const Candidate& candidate : grips) own[list].push_back(bare_grip(plan(), list / plan().hand_scales(), candidate));
+    }
+    bool is_whole = true;
+    agree([&] { is_whole = complete(own, interrupt); });
+    std::vector<CompletedGrip> completed;
+    for (std::size_t list = 0; list < own.size(); ++list)
+      for (const BestGrip& grip : own[list])
+        completed.push_back({list, grip.candidate, grip.refined, grip.refined_score, grip.robust});
+    if (team_.is_leader())
+      for (auto& list : best) list.clear();
+    const auto add_completed = [&](const std::vector<CompletedGrip>& grips) {
+      for (const CompletedGrip& grip : grips) {
+        BestGrip& added = best.at(grip.list).emplace_back(bare_grip(plan(), grip.list / plan().hand_scales(), grip.candidate));
+        added.refined = grip.refined;
+        added.refined_score = grip.refined_score;
+        added.robust = grip.robust;
+      }
+    };
+    if (team_.is_leader()) add_completed(completed);
+    PacketWriter found;
+    found.put(completed);
+    team_.gather(found.bytes(),
+                 [&](int, const std::string& message) { add_completed(PacketReader(message).take_all<CompletedGrip>()); });
+    return all_of(is_whole);
+  }
+
+  struct FoundHand {
+    bool is_there = false;
+    PosedHand hand{};
+  };
+
+  Team& team_;
+  InterruptGuard& interrupt_;
+  std::vector<std::string> devices_;              // of all ranks; the leader knows them
+  std::vector<OwnStretch> stretches_;             // that are there, and that this rank looks after
+  bool has_stretches_ = false;                    // any rank
+  std::vector<HandLists> best_;                   // of each vessel, so far
+  std::vector<std::optional<HandLists>> fresh_;   // and since the last report
+  std::vector<std::vector<Candidate>> eligible_;  // of each vessel, of this rank's grips
+  std::size_t eligible_count_ = 0;
+  bool has_eligible_ = false;              // all of them
+  std::vector<std::vector<double>> told_;  // cells of the heat maps that the leader knows
+  std::vector<Piece> pieces_;              // since the last report
+  std::vector<OwnStretch> written_;        // by this rank
+  double untold_kernel_seconds_ = 0;
+  std::vector<Group> groups_;
+  std::vector<std::size_t> group_of_;  // of each rank
+  std::string shard_id_;               // of the sweep; empty where all write into one file
+  RunLayout layout_;
+  RankFigures own_;
+  double last_report_ = 0;
+  // of the leader
+  std::vector<std::map<std::uint64_t, Piece>> pending_;  // of each vessel: done after a gap, by their first grip
+  std::vector<RankFigures> figures_;
+  std::uint64_t reported_ = 0;
+  int ended_ = 0;
+  std::optional<Error> failure_;
+  std::optional<Progress> progress_;
+};
+
+}  // namespace
+
+void leave_cluster_sweep(Team& team, const Error& error) {
+  try {
+    agree(team, error);
+  } catch (const Error&) {
+    // which the leader says
+  }
+}
+
+ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts,
+                           InterruptGuard& interrupt) {
+  return or_abort(team, [&] {
+    std::optional<ClusterSweep> sweep;
+    agree(team, caught([&] { sweep.emplace(team, scene, options, parts, interrupt); }));
+    return sweep->run();
+  });
+}
+
+ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options,
+                           InterruptGuard& interrupt) {
+  Scene scene;
+  SweepOptions own = options;
+  if (own.on == ON_AUTO) own.on = "vulkan";  // all ranks alike, whatever devices the nodes have
+  or_abort(team, [&] {
+    agree(team, caught([&] {
+            scene = read_scene();
+            if (own.on != "core") own.on = own_device(team, own.on);
+          }));
+    return ExitCode::done;
+  });
+  if (own.threads == 0) own.threads = team.own_processors();  // on a device, of what the core does besides
+  const Precision precise = own.precision.value_or(own.on == "core" ? Precision::full : Precision::single);
+  const SweepParts parts{
+      [&](const FieldSet& fields) { return open_backend(scene, fields, own.on, precise, own.threads); },
+      [&] { return make_core_evaluator(scene); },
+      [&] { load_meshes(scene, [&] { return largest_buffer(own.on); }); },
+      [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, "core", Precision::full, own.threads); },
+      Team::open_output,
+  };
+  return run_cluster_sweep(team, scene, own, parts, interrupt);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A grip as one glTF binary: the hand as OpenXR's joints, the glass, the liquid.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sweeps/grips/report.h"
+
+namespace wholehand {
+
+// How finely round things are cut: flat faces round the glass.
+constexpr int GLB_SEGMENTS = 64;
+
+// A ball's radius as a share of the joint's: its colour shows over the bones, whose flat faces are up to 1.2 % within the round.
+constexpr double GLB_BALL_SHARE = 1.03;
+
+// By what such a file is known as drawn here.
+inline constexpr std::string_view GRIP_GLB_MARK = "\"generator\":\"wholehand";
+
+// The bytes of a .glb (glTF 2.0: m, +y up). Nodes, each the child of the one before it where it is indented:
+//   pivot      at the middle between the tips; its rotation is animated over the report's tilts where there are two or more
+//     grip     the vessel frame; its `extras` are grip_json's object
+//       vessel, liquid   meshes; the liquid of the first of the report's states that has any, its level surface in the upright vessel
+//       wrist  and the 24 joints of the posed hand by hand_nodes' names, nested along each finger, each with its bone, the rounded
+//              cone through the radii of both joints; its child `<joint> contact` is a ball a little larger than the joint, coloured by
+//              its state, which is in `extras`
+// While the animation runs the liquid is shown at its own tilt and hidden at others. Radii below 1.5 mm are drawn as 1.5 mm.
+// Throws Error: (usage) where the grip is not feasible, (failure) where the vessel's mesh has not been read.
+std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& report, int segments = GLB_SEGMENTS);
+
+}  // namespace wholehand

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// A mesh vessel's body with normals, as viewers shade it.
+#pragma once
+
+#include "core/mesh_body.h"
+#include "sweeps/grips/surface.h"
+
+namespace wholehand {
+
+// The body's triangles in their order. Across edges that are no creases (core/meshes/edges.h) corners share a position and its normal, the
+// mean of the triangles' by their angles there; at creases, open edges and where more than two triangles meet positions are repeated.
+SurfaceMesh mesh_surface(const MeshBody& body);
+
+}  // namespace wholehand

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The best grips of a vessel while a sweep runs, a list for each hand scale.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/backend.h"
+#include "core/candidates.h"
+#include "sweeps/plan/plan.h"
+
+namespace wholehand {
+
+// Adds the eligible grips (shaders/status.h) of a chunk whose score and status are kept.
+void add_eligible(const PlaneChunk& chunk, const FieldSet& fields, std::vector<Candidate>& eligible);
+
+class HandLists {
+ public:
+  // The `size` best of each of the plan's hand scales; begins with those of `candidates`, in any order. The plan must outlive the object.
+  HandLists(const Plan& plan, std::size_t size, const std::vector<Candidate>& candidates);
+
+  // The eligible grips of a chunk, whose score and status are kept; and single grips.
+  void offer(const PlaneChunk& chunk, const FieldSet& fields);
+  void offer(const std::vector<Candidate>& candidates);
+  bool takes(const Candidate& candidate) const;  // whether it would get in
+
+  double least() const;  // the score below which none gets into any list
+
+  std::vector<Candidate> sorted(std::size_t hand_scale) const { return lists_[hand_scale].sorted(); }  // the best first
+  std::vector<Candidate> all() const;                                                                  // one list after the other
+
+ private:
+  const Plan& plan_;
+  std::vector<BestCandidates> lists_;
+  std::vector<std::size_t> hands_;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The names of a sweep's files.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace wholehand {
+
+struct Scene;
+
+// Where the files of a sweep lie: NAME.nc and its companions, from the name of the result file. Where that is a symbolic link, what is written on the
+// way lies beside the file that it names.
+struct OutputNames {
+  std::string result;   // NAME.nc as the user gave it
+  std::string target;   // the file that this is or points to
+  std::string partial;  // NAME.nc.partial while it is being written
+  std::string mark;     // NAME.nc.partial.mark: how far it is whole
+  std::string lock;     // NAME.nc.partial.lock: who writes it
+  std::string best;     // NAME.best.csv
+  std::string heat_map(const std::string& vessel_part) const { return stem + "." + vessel_part + ".svg"; }
+  std::string grip_glb(const std::string& vessel_part, std::size_t rank) const {
+    return stem + "." + vessel_part + "." + std::to_string(rank) + ".glb";
+  }
+  std::string stem;  // NAME
+};
+
+OutputNames output_names(const std::string& result);
+
+// Throws Error (usage) where `path` is the scene file itself or a mesh of it, by whatever name.
+void check_not_the_scene(const std::string& path, const Scene& scene, const char* option = "-o");
+
+}  // namespace wholehand

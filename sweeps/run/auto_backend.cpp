@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "sweeps/run/auto_backend.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "base/numbers/parallel.h"
+#include "base/system/output.h"
+#include "base/text/readable.h"
+#include "core/planes.h"
+#include "shaders/layout.h"
+#include "sweeps/plan/plan.h"
+#include "sweeps/result/mark.h"
+#include "sweeps/result/output_names.h"
+#include "sweeps/result/sweep_result.h"
+
+namespace wholehand {
+namespace {
+
+bool is_there(const std::string& path) {
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0;
+}
+
+// Where the sweep of an unfinished or finished result ran, and its precision. False: no such result, or none that says so; whoever goes on
+// with it says what is wrong.
+bool origin_of(const OutputNames& names, std::string& on, Precision& precision) try {
+  SweepMark mark;
+  if (is_there(names.partial)) {
+    if (!load_mark(names.mark, mark)) return false;
+    on = mark.identity.at("backend") == "core" ? "core" : mark.identity.at("device");
+    precision = mark.identity.at("precision") == "float" ? Precision::single : Precision::full;
+    return true;
+  }
+  if (!is_there(names.result)) return false;
+  const SweepResult result(names.result);
+  on = result.origin().backend == "core" ? "core" : result.origin().device;
+  precision = result.origin().precision;
+  return true;
+} catch (const std::exception&) {
+  return false;
+}
+
+// Fitted to sweeps of 27,648 to 195,840 grips (docs/results, "Core or device").
+struct Cost {
+  double start;    // s: opening, lists, charts, the end of the file
+  double grip;     // s of one thread: closed, at rest, examined, written
+  double effort;   // the same, of the worst effort without states
+  double reserve;  // and of the three that are kept on request
+};
+constexpr Cost CORE{0.25, 30e-6, 18.5e-6, 87e-6}, CPU_DRIVER{0.45, 13.5e-6, 14.5e-6, 47e-6};
+constexpr double EFFORT_STATES = 100, RESERVE_STATES = 300;  // states at which the cost of efforts and of reserves doubles
+constexpr double ROBUST = 1;                                 // s of one thread, for the deviations of the lists
+constexpr double DOUBLE = 1.8;                               // cost of a grip in double over float, on a CPU driver
+constexpr int DRIVER_THREADS = 32;                           // most that llvmpipe uses
+
+double seconds_of(const Cost& cost, const Workload& work, int threads) {
+  const auto states = static_cast<double>(work.states);
+  double grip = cost.grip;
+  if (work.has_efforts) grip += cost.effort * (1 + states / EFFORT_STATES);
+  if (work.has_reserves) grip += cost.reserve * (1 + states / RESERVE_STATES);
+  return cost.start + (grip * static_cast<double>(work.grips) + (work.is_robust ? ROBUST : 0)) / threads;
+}
+
+std::string about(double seconds) { return fmt::format("about {} s", fixed_text(seconds, seconds < 10 ? 1 : 0)); }
+
+}  // namespace
+
+Workload workload_of(const Scene& scene, const std::vector<const Variable*>& variables, std::uint64_t grips) {
+  Workload work;
+  work.grips = grips;
+  work.states = scene_fills(scene) * scene.tilts.size();
+  const FieldSet computed = make_field_set(variable_fields(variables), scene);
+  work.is_robust = scene.robust.has_value();
+  work.has_efforts = has_effort(scene);
+  work.has_reserves = computed.has(FIELD_TIPS_WORST_EFFORT) || computed.has(FIELD_PUSH) || computed.has(FIELD_FRICTION_NEEDED);
+  return work;
+}
+
+bool pays_for_device(const Workload& work, int threads) { return core_seconds(work, thread_count(threads)) >= 1; }
+
+double core_seconds(const Workload& work, int threads) { return seconds_of(CORE, work, threads); }
+double cpu_driver_seconds(const Workload& work, int threads, Precision precision) {
+  Cost cost = CPU_DRIVER;
+  if (precision == Precision::full)
+    for (double* part : {&cost.grip, &cost.effort, &cost.reserve}) *part *= DOUBLE;
+  return seconds_of(cost, work, std::min(threads, DRIVER_THREADS));
+}
+
+BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
+                             const std::vector<host::DeviceInfo>& devices) {
+  if (!pays_for_device(work, threads)) return {"core", "; so little work does not pay for a device (`--on vulkan`)"};
+  const host::DeviceInfo& device = host::choose_device(devices, "vulkan");
+  if (precision == Precision::full && !device.float64) return {"core", "; " + device.name + " has no double precision"};
+  const double on_core = core_seconds(work, thread_count(threads));
+  const char* core_precision = precision == Precision::single ? "float" : "double";
+  const std::string core = fmt::format("; the CPU core, {}, would take {} (`--on core`)", core_precision, about(on_core));
+  if (device.kind != host::DeviceKind::cpu) return {"vulkan", core};
+  if (!is_llvmpipe(device)) return {"core", fmt::format("; {} is a CPU driver that was never timed (`--on vulkan`)", device.name)};
+  const double on_driver = cpu_driver_seconds(work, thread_count(0), precision.value_or(Precision::single));
+  if (on_driver < on_core) return {"vulkan", core};
+  return {"core", fmt::format("; {}, a CPU driver, would take {} once its kernels are compiled (`--on vulkan`)", device.name,
+                              about(on_driver))};
+}
+
+BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision) try {
+  const bool may_choose = pays_for_device(work, threads);
+  return choose_backend(work, threads, precision, may_choose ? host::list_devices() : std::vector<host::DeviceInfo>{});
+} catch (const Error& error) {
+  return {"core", fmt::format("; {}", error.what())};
+}
+
+AutoBackend::AutoBackend(const Scene& scene, SweepOptions& options) : options_(options) {
+  if (options.on != ON_AUTO || (options.resume && resume(scene))) return;
+  options.on = "core";
+  try {
+    const std::vector<const Variable*> variables = choose_variables(scene);
+    const Plan plan(scene, keeps_vectors(variables));
+    const Workload work = workload_of(scene, variables, plan.grips() * scene.vessels.size());
+    const BackendChoice choice = choose_backend(work, options.threads, options.precision);
+    options.on = choice.on;
+    options.alternative = choice.alternative;
+    may_change_ = choice.on != "core";
+  } catch (const Error&) {
+    // the sweep refuses it in its own words
+  }
+}
+
+bool AutoBackend::resume(const Scene& scene) {
+  Precision precision{};
+  const OutputNames names = output_names(options_.output.empty() ? default_output(scene) : options_.output);
+  if (!origin_of(names, options_.on, precision)) return false;
+  if (!options_.precision) options_.precision = precision;
+  return true;
+}
+
+void AutoBackend::take_core() {
+  may_change_ = false;
+  options_.on = "core";
+  options_.alternative = "";
+}
+
+void AutoBackend::say_on_core(const std::string& why) const {
+  const std::string line = "on core, since the device does not work: " + why;
+  options_.note ? options_.note(line) : say_note(line);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Chooses core or device for `--on auto`, by the rule of docs/method.md, "Core or device".
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/text/error.h"
+#include "core/backend.h"
+#include "host/device_info.h"
+#include "sweeps/plan/variables.h"
+#include "sweeps/run/sweep_options.h"
+
+namespace wholehand {
+
+inline constexpr const char* ON_AUTO = "auto";
+
+// What determines how long a sweep takes.
+struct Workload {
+  std::uint64_t grips = 0;  // of all vessels
+  std::size_t states = 0;   // of each grip
+  bool has_efforts = false;
+  bool is_robust = false;
+  bool has_reserves = false;  // tips_worst_effort, push or friction_needed of each grip
+};
+
+Workload workload_of(const Scene& scene, const std::vector<const Variable*>& variables, std::uint64_t grips);
+
+// Expected seconds on the core, and on llvmpipe once its kernels are compiled.
+double core_seconds(const Workload& work, int threads);
+double cpu_driver_seconds(const Workload& work, int threads, Precision precision);
+
+// Whether the core needs a second or more. Opening a device takes about as long.
+bool pays_for_device(const Workload& work, int threads);
+
+struct BackendChoice {
+  std::string on = "core";  // or "vulkan"
+  std::string alternative;  // what the other would take or lacks; completes the sentence of backend_line
+};
+
+// Chooses the core or the best of `devices`. `threads` is for the core; 0 means all. `precision` is absent where the user names none.
+BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
+                             const std::vector<host::DeviceInfo>& devices);
+
+// Chooses among the devices of this machine, which are listed only where one may be chosen. Falls back to the core where there is none. Does not throw.
+BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision);
+
+// Decides when it is made, before meshes are read; `options.on` then says core or a device, and `options.alternative` what the other would take.
+// Where `options.on` is not ON_AUTO it does nothing. A sweep that is resumed goes on where it began, with the precision that it began with.
+class AutoBackend {
+ public:
+  // `options` must outlive the object. A scene that no sweep takes is refused later, by the sweep.
+  AutoBackend(const Scene& scene, SweepOptions& options);
+
+  // What `work` makes of options.on. Where the program chose the device itself and that fails, options.on becomes the core, and `work` is
+  // done again; then a note says so. Where the core fails too, it was not the device, and only the core's error is reported.
+  template <class Work>
+  auto or_on_core(Work&& work) {
+    if (!may_change_) return work();
+    std::string why;
+    try {
+      return work();
+    } catch (const Error& error) {
+      why = error.what();
+    }
+    take_core();
+    if constexpr (std::is_void_v<decltype(work())>) {
+      work();
+      say_on_core(why);
+    } else {
+      auto made = work();
+      say_on_core(why);
+      return made;
+    }
+  }
+
+ private:
+  bool resume(const Scene& scene);
+  void take_core();
+  void say_on_core(const std::string& why) const;
+
+  SweepOptions& options_;
+  bool may_change_ = false;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// A sweep step by step: what one process does from first to last (run_sweep), and what the ranks of a cluster share among them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/system/interrupt.h"
+#include "base/system/progress.h"
+#include "base/text/error.h"
+#include "core/scene.h"
+#include "sweeps/lists/list_chooser.h"
+#include "sweeps/plan/plan.h"
+#include "sweeps/plan/variables.h"
+#include "sweeps/rank/rank.h"
+#include "sweeps/result/heat_map.h"
+#include "sweeps/result/mark.h"
+#include "sweeps/result/output_names.h"
+#include "sweeps/result/result_contents.h"
+#include "sweeps/result/result_file.h"
+#include "sweeps/run/sweep_options.h"
+#include "sweeps/run/sweep_parts.h"
+#include "sweeps/run/write_companions.h"
+
+namespace wholehand {
+
+using BestLists = std::vector<std::vector<BestGrip>>;  // of each vessel and hand scale (GripLists)
+
+class Sweep {
+ public:
+  // All three must outlive the object.
+  Sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts);
+  virtual ~Sweep() = default;
+  Sweep(const Sweep&) = delete;
+  Sweep& operator=(const Sweep&) = delete;
+
+  // Everything that run_sweep does.
+  virtual ExitCode run();
+
+ protected:
+  // Refuses what it can before any work, meshes unread.
+  void check() const;
+  // Whether there is nothing to resume since the result is complete, and the words for that.
+  bool is_finished() const;
+  ExitCode finished() const;
+  // Meshes, warnings, devices: after this plan(), backend_, evaluator_ and facts_ are there. Where parts_ have changed options_.on, and with it the
+  // precision, the room on the disk is checked again.
+  void open();
+  void say_opening() const;
+  // A note goes to options.note where that is set, and print_text then prints nothing; else to standard error.
+  void note(const std::string& line) const;
+  void print_text(const std::string& text) const;
+  bool is_quiet() const { return static_cast<bool>(options_.note); }
+  // Sets the progress: from the mark of an earlier sweep if there is one to resume, else nothing done. True: resumed.
+  bool begin();
+  // Computes a stretch again that the file no longer holds as it was written. False: interrupted. Throws Error (failure) where it comes
+  // out otherwise.
+  bool repair_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
+  // Computes a stretch that the file does not hold. Likewise.
+  bool restore_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
+  // How a note about this process's own work begins, where others work on the same sweep.
+  virtual std::string who() const { return ""; }
+  // Everything up to here onto the disk, then the mark that says so.
+  void save(ResultFile& file);
+  ExitCode interrupted() const;
+  // Does what follows the last grip. Where that fails the mark has all grips, as far as it can be written.
+  void end(ResultFile& file, const std::function<void()>& ending);
+  // The places of the grips of each list; which of them are listed in the end, and their refined grips and robust scores, false where that was
+  // interrupted; and the files, once all is known.
+  BestLists find_best() const;
+  bool complete(BestLists& best, InterruptGuard& interrupt) const;
+  void finish(ResultFile& file, BestLists best);
+
+  const Plan& plan() const { return *plan_; }
+  ResultContents contents() const;
+  Precision precision() const;
+  double gate(std::size_t vessel) const;  // gate_tolerance (core/tolerances.h)
+  std::map<std::string, std::string> identity() const;
+  bool is_choosy() const;                       // whether the best grips have to differ
+  bool refines() const;                         // whether it searches for better grips near the best ones
+  std::size_t candidates() const;               // grips of a list of which the best are chosen in the end
+  std::size_t pool() const;                     // grips of a list that one pass keeps
+  std::size_t kept_best() const;                // grips of a list that are kept until all grips are there
+  bool judges_few() const;                      // whether efforts are computed only of grips that may still be listed
+  bool ranks_here() const;                      // whether the best are found from scores that are read back, and not by the backend
+  bool has_field(int field) const;              // whether it is read back
+  bool has_heat_map() const;                    // whether scores and status are read back, and the score is wanted
+  ListRequest list_request() const;             // of the best grips
+  std::uint64_t total() const;                  // grips of all vessels
+  std::uint64_t done() const;                   // of them in mark_
+  bool has_shards() const;                      // whether other files hold some of them
+  bool is_time_up() const;                      // the sweep's time limit has passed
+  bool is_asked_to_end(InterruptGuard&) const;  // by a signal, or by the time limit
+  bool is_mark_due() const;
+  RunRequest grips_of(std::size_t vessel, InterruptGuard& interrupt) const;  // all but what is done with them
+  void say_once(const std::vector<std::string>& notes, Progress* progress);  // which may be null
+  static void end_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose = {});
+
+  const Scene& scene_;
+  const SweepOptions& options_;
+  const SweepParts& parts_;
+  OutputNames names_;
+  std::size_t best_wanted_;
+  RankBy by_;  // what the lists that are shown and written are ranked by
+  std::vector<const Variable*> variables_;
+  std::optional<Plan> plan_;
+  std::unique_ptr<Backend> backend_;
+  BackendInfo info_;                      // the backend's
+  BackendInfo identified_;                // the same as a mark has it: of ranks without how many there are
+  std::unique_ptr<Evaluator> evaluator_;  // that poses and refines the best grips; null where neither is asked for
+  std::vector<VesselFacts> facts_;
+  std::vector<HeatMap> maps_;  // one per vessel
+  SweepMark mark_;
+  bool is_marked_ = false;   // there is a mark of this sweep
+  ChecksumParts checksums_;  // of the result, as far as ranks have found some
+  double wait_seconds_ = 0;  // in the backend, less what it spent in the sink
+  double kernel_seconds_ = 0;
+
+ private:
+  void check_room() const;       // on the disk
+  bool has_usual_order() const;  // or the lists are ranked by another key in the end
+  Ranking rank_finished(const RankRequest& request) const;
+  CompanionRequest companions() const;
+  std::vector<int> swept_fields() const;
+  bool has_score() const;
+  bool keeps_least_bad() const;
+  std::string unheld(std::size_t vessel) const;
+  std::vector<std::string> unheld_lists(const BestLists& best) const;
+  std::string counts_text(std::size_t vessel) const;
+  MarkBounds bounds() const;
+  void announce_check() const;
+  bool repair(ResultFile& file, InterruptGuard& interrupt);
+  std::string readable_stretch(const Stretch& stretch, std::size_t vessel) const;
+  bool compute_again(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
+  bool sweep(ResultFile& file, InterruptGuard& interrupt);
+  void run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interrupt, Progress& progress);
+  bool choose(std::size_t v, ResultFile& file, InterruptGuard& interrupt);
+  void forget();
+  void remember(const std::vector<Candidate>& eligible, std::size_t of_grips);
+  void pass_remembered(ListChooser& chooser) const;
+  bool pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& interrupt);
+
+  double wall_before_ = 0;  // of earlier sessions, s
+  double mark_interval_;
+  double last_mark_ = 0;  // s of the clock
+  std::set<std::string> said_;
+  std::vector<double> remembered_;      // scores of the vessel under way; NaN: not eligible. Empty: not kept
+  std::uint64_t remembered_count_ = 0;  // grips whose outcome is in there
+};
+
+}  // namespace wholehand
