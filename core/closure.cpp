@@ -13,10 +13,10 @@ Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading,
   const Vec3 center(0, vessel.bound_height, 0);
   const Real middle = glm::dot(center - origin, direction);
   const Real reach = vessel.bound_radius + radius + vessel.limits.stop_tolerance;
-  Real travelled = 0;
+  Real traveled = 0;
   Trace trace;
   for (int step = 0; step < vessel.limits.trace_steps; ++step) {
-    trace.t = middle + heading * (reach - travelled);
+    trace.t = middle + heading * (reach - traveled);
     trace.steps = step + 1;
     const Vec3 place = origin + trace.t * direction;
     const Support support = support_at(vessel, place);
@@ -27,8 +27,8 @@ Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading,
       trace.element = support.element;
       return trace;
     }
-    travelled += safe_step(support, clear, -heading * direction, Real(1), Real(0));
-    if (travelled > Real(2) * reach) {
+    traveled += safe_step(support, clear, -heading * direction, Real(1), Real(0));
+    if (traveled > Real(2) * reach) {
       trace.reason = REASON_MISSES;
       return trace;
     }

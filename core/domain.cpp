@@ -13,7 +13,7 @@
 namespace wholehand {
 namespace {
 
-// The largest coordinate, arc's centre or arc's radius of an outline from [0, 0] on, m.
+// The largest coordinate, arc's center or arc's radius of an outline from [0, 0] on, m.
 double farthest(const std::vector<OutlineElement>& outline) {
   double largest = 0;
   std::array<double, 2> start{};

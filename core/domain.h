@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The domain in which float agrees with double to 10 micrometres and 10 millinewtons, and what lies outside of it.
+// The domain in which float agrees with double to 10 micrometers and 10 millinewtons, and what lies outside of it.
 #pragma once
 
 #include <string>

@@ -31,7 +31,7 @@ struct EvaluatorOptions {
 };
 
 // What is known of a vessel before any grip; SI. `largest` is the load upright at the scene's largest fill: glass and liquid together,
-// the liquid's share of the mass, and that share's part of the height of the centre of mass.
+// the liquid's share of the mass, and that share's part of the height of the center of mass.
 struct VesselConstants {
   double capacity = 0;          // m3, upright to the brim; 0 without a cavity
   double mass = 0;              // empty, kg

@@ -18,7 +18,7 @@ Vec3 up_direction(Vec3 pour, Real sine_tilt, Real cosine_tilt) { return Vec3(0, 
 
 Vec3 load_center(Load load, Vec3 pour) { return load.fixed + load.lean * pour + Vec3(0, load.height, 0); }
 
-// tau_ref = m g max(L, L_min): without a least lever, a grip at the centre of mass would have no reference.
+// tau_ref = m g max(L, L_min): without a least lever, a grip at the center of mass would have no reference.
 Real grip_reference(Real mass, Real gravity, Real pivot_length) {
   return mass * gravity * std::max(pivot_length, Real(SMALLEST_PIVOT));
 }

@@ -18,10 +18,10 @@ struct ForceScale {
   Real torsion = 0;                   // gamma, m
 };
 
-// What the glass and its liquid weigh at one fill and tilt: centre of mass = fixed + lean n + height y, vessel frame.
+// What the glass and its liquid weigh at one fill and tilt: center of mass = fixed + lean n + height y, vessel frame.
 struct Load {
   Real mass = 0;              // kg
-  Vec3 fixed{};               // the vessel's own share of the centre of mass, m
+  Vec3 fixed{};               // the vessel's own share of the center of mass, m
   Real lean = 0, height = 0;  // the liquid's share, m
 };
 
@@ -29,7 +29,7 @@ struct Load {
 Vec3 pour_direction(Vec3 direction, Real sense);
 // Up in the vessel frame at a tilt.
 Vec3 up_direction(Vec3 pour, Real sine_tilt, Real cosine_tilt);
-// Centre of mass of a load, m.
+// Center of mass of a load, m.
 Vec3 load_center(Load load, Vec3 pour);
 // The torque at which the normal force has grown by its whole range, per grip: m g max(L, 5 mm), N m.
 Real grip_reference(Real mass, Real gravity, Real pivot_length);

@@ -168,7 +168,7 @@ void examine_table(const Hand& hand, const Vessel& vessel, const Placement& plac
 }  // namespace
 
 // Two phalanges of the thumb and three of each finger: 78 pairs. Most are too far apart to matter, and the spheres around them say so. More
-// of them do if the first depth is that of joints side by side, of neighbouring fingers: it is an overlap too, and often nearly the largest.
+// of them do if the first depth is that of joints side by side, of neighboring fingers: it is an overlap too, and often nearly the largest.
 Real digits_overlap(const Hand& hand, const std::array<Vec3, JOINTS>& posed, Real scale) {
   std::array<Ball, JOINTS> chain;
   for (int f = 0; f < FINGERS; ++f)

@@ -11,7 +11,7 @@ namespace {
 constexpr int INDEX = 1, MIDDLE = 2, LITTLE = 4;
 constexpr int MCP = 1;  // of a finger's radii
 
-// How far a straight finger goes across (x) and along (-z) for each metre: Ry(-splay) Rx(-arch) (0, 0, -1).
+// How far a straight finger goes across (x) and along (-z) for each meter: Ry(-splay) Rx(-arch) (0, 0, -1).
 double across(const FingerData& finger) { return std::sin(finger.splay) * std::cos(finger.arch); }
 double along(const FingerData& finger) { return std::cos(finger.splay) * std::cos(finger.arch); }
 

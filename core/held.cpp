@@ -7,7 +7,7 @@
 
 namespace CORE_NS {
 
-// Eq. (1) of the paper: tau = m g L sin t, as if the centre of mass were straight above or below the pivot M, at L = |CoM - M|.
+// Eq. (1) of the paper: tau = m g L sin t, as if the center of mass were straight above or below the pivot M, at L = |CoM - M|.
 Real pendulum_torque(Real mass, Real gravity, Real pivot_length, Real sine_tilt) {
   return mass * gravity * pivot_length * sine_tilt;
 }

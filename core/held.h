@@ -7,7 +7,7 @@
 
 namespace CORE_NS {
 
-// The vessel with liquid of a mass (kg) whose centre lies at `lean` along the pour direction and `height`, m.
+// The vessel with liquid of a mass (kg) whose center lies at `lean` along the pour direction and `height`, m.
 Load load_with(const Vessel& vessel, Real liquid_mass, Real lean, Real height);
 // tau_ref of a vessel: its largest load upright, about the farther of base and mouth (heights in m), N m.
 Real object_reference(Load largest, Real gravity, Real base_height, Real mouth_height);

@@ -23,7 +23,7 @@ struct Slices {
   Real volume = 0, lean = 0, height = 0, surface = 0;
 };
 
-// Liquid at rest: m3 and its centre of mass along n and y, m. Its surface, if any, is the plane u . p = level (u: up, in the vessel frame),
+// Liquid at rest: m3 and its center of mass along n and y, m. Its surface, if any, is the plane u . p = level (u: up, in the vessel frame),
 // m; for drawings, absent in the shaders.
 struct LiquidState {
   Real volume = 0, lean = 0, height = 0;
@@ -49,7 +49,7 @@ Real lip_level(const Vessel& vessel, Real sine_tilt, Real cosine_tilt);
 Real lip_capacity(const Vessel& vessel, const Quadrature& quadrature, Real sine_tilt, Real cosine_tilt);
 // A level under which nothing lies: the cavity's lowest, or below it where an arc counts with its whole circle.
 Real bottom_level(const Vessel& vessel, Real sine_tilt, Real cosine_tilt);
-// Liquid of a volume (m3, at most the lip's capacity) at rest; volume 0: the centre at the inner floor. The volume under the level
+// Liquid of a volume (m3, at most the lip's capacity) at rest; volume 0: the center at the inner floor. The volume under the level
 // is right to LEVEL_TOLERANCE of the capacity; of a vessel that was loaded without liquid, whose capacity is 0, to rounding.
 LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real volume, Real sine_tilt, Real cosine_tilt);
 

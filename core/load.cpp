@@ -35,7 +35,7 @@ namespace {
 
 Vec2 to_vec2(const std::array<double, 2>& t) { return Vec2(Real(t[0]), Real(t[1])); }
 
-// Mass and centre of mass of the wall: what the hull encloses less the cavity, by revolution of their elements; of a mesh, what it
+// Mass and center of mass of the wall: what the hull encloses less the cavity, by revolution of their elements; of a mesh, what it
 // encloses, less the cavity where that is enclosed too.
 void weigh_wall(Vessel& vessel, const wholehand::PreparedVessel& prepared, const wholehand::VesselData& data,
                 const Quadrature& quadrature, wholehand::Handedness handedness) {

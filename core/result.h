@@ -62,10 +62,10 @@ struct GripResult {
   int trace_steps = 0, advance_steps = 0;
 };
 
-// Liquid of a vessel at one fill and tilt; the centre of mass lies in the (n, y) plane.
+// Liquid of a vessel at one fill and tilt; the center of mass lies in the (n, y) plane.
 struct LiquidResult {
   double volume = 0, mass = 0;  // m3, kg
-  double lean = 0, height = 0;  // centre of mass along n and y, m
+  double lean = 0, height = 0;  // center of mass along n and y, m
   double poured = 0;            // m3
 };
 

@@ -9,7 +9,7 @@
 
 namespace CORE_NS {
 
-// A line: distance to the clamped foot of the perpendicular, the ends taken as they stand so that neighbours share them to the bit.
+// A line: distance to the clamped foot of the perpendicular, the ends taken as they stand so that neighbors share them to the bit.
 // An arc: |q - center| - radius inside its sector, which for a y-monotone arc is "on its half, and the foot between the ends'
 // heights"; else the nearer end. Degenerate: q at the center lies at `radius` from the whole arc.
 Real element_distance_squared(const Element& element, Vec2 q) {

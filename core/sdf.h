@@ -39,7 +39,7 @@ struct Vessel {
   int lid = -1;                  // index of the mouth's element in `outline`; -1: none (shell, lattice)
   Lattice lattice;
   Limits limits;
-  Real bound_height = 0;  // centre (0, bound_height, 0) and radius of a sphere that holds the vessel
+  Real bound_height = 0;  // center (0, bound_height, 0) and radius of a sphere that holds the vessel
   Real bound_radius = 0;
   std::vector<Element> cavity;  // inner wall from the floor to the mouth, y ascending; empty where there is no wall
   Real floor_height = 0;        // of the cavity on the axis

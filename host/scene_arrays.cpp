@@ -174,7 +174,7 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
 namespace {
 
 // A load at a tilt in numbers on which the wrench depends in proportion, whatever the grip: kg, and kg by a length of 100 mm. With y upwards and n
-// the pour direction its force is along cos y - sin n; the glass's own centre, where it lies on the axis, and the liquid's have moments along n x y.
+// the pour direction its force is along cos y - sin n; the glass's own center, where it lies on the axis, and the liquid's have moments along n x y.
 Point5 load_point(const double* load, double sine, double cosine, const Parameters<double>& vessel) {
   constexpr double LENGTH = 0.1;
   const double mass = load[0], own = 1 - load[1];

@@ -29,10 +29,10 @@ Trace trace_tip(Vec3 origin, Vec3 direction, Real heading, Real radius) {
   Vec3 center = Vec3(Real(0), scene.bound_height, Real(0));
   Real middle = dot(center - origin, direction);
   Real reach = scene.bound_radius + radius + STOP_TOLERANCE;
-  Real travelled = Real(0);
+  Real traveled = Real(0);
   Trace trace = Trace(Real(0), REASON_NOT_CONVERGED, Vec3(0), -1);
   for (int step = 0; step < LIMIT_TRACE_STEPS; ++step) {
-    trace.t = middle + heading * (reach - travelled);
+    trace.t = middle + heading * (reach - traveled);
     precise Vec3 place = origin + trace.t * direction;
     Support support = support_at(place);
     Real clear = support.distance - radius;
@@ -42,8 +42,8 @@ Trace trace_tip(Vec3 origin, Vec3 direction, Real heading, Real radius) {
       trace.element = support.element;
       break;
     }
-    travelled += safe_step(support, clear, -heading * direction, Real(1), Real(0));
-    if (travelled > Real(2) * reach) {
+    traveled += safe_step(support, clear, -heading * direction, Real(1), Real(0));
+    if (traveled > Real(2) * reach) {
       trace.reason = REASON_MISSES;
       break;
     }

@@ -3,7 +3,7 @@
 // push.first on, fill by fill, as many as a uniform block holds: read from a storage buffer they cost twice the time. A fill that is cut goes on
 // from what its planes hold.
 //
-// A state asks for two numbers alone. With the arm from the midpoint of the tips to the centre of mass along n (pour), y (up) and p = y x n,
+// A state asks for two numbers alone. With the arm from the midpoint of the tips to the center of mass along n (pour), y (up) and p = y x n,
 //   torque^2 = (m g sin t)^2 |arm|^2     (exact: (m g (sin t arm_y + cos t arm_n))^2)
 //   hold     = m g / 2 (sqrt(1 - a^2 + (lever / gamma)^2) / mu + |a|),     a = d_y cos t = d . u
 //   lever    = |arm . (u x d)| = |cos t (y x d)_n arm_n - sin t (d_p arm_y - d_y arm_p)|,     as d . n = 0
@@ -110,7 +110,7 @@ struct StateForces {
 
 Real exact_torque_of(Vec4 weight, Vec4 tilted, Real lean, Real rise) { return weight.x * (tilted.x * rise + tilted.y * lean); }
 
-// `weight`: N, the vessel's own share of the mass, lean and height of the centre of mass less what lies off the axis; `tilted`: sine, cosine, ..
+// `weight`: N, the vessel's own share of the mass, lean and height of the center of mass less what lies off the axis; `tilted`: sine, cosine, ..
 StateForces state_forces(Held held, Vec4 weight, Vec4 tilted) {
   Real lean = weight.z - held.midpoint.x, rise = weight.w - held.midpoint.y, beside = -held.midpoint.z;
   if (OFF_AXIS) {
@@ -178,7 +178,7 @@ void put_terms(Held held, uint fill, uint grip, FillTerms terms) {
 }
 
 void main() {
-  // neighbouring lanes have neighbouring grips
+  // neighboring lanes have neighboring grips
   uint invocations = (push.count + uint(TOGETHER) - 1u) / uint(TOGETHER);
   if (INVOCATION >= invocations) return;
   uint grips[TOGETHER];

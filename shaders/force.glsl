@@ -10,7 +10,7 @@ layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 *
 
 struct Load {
   Real mass;
-  Vec3 fixed_center;  // the vessel's own share of the centre of mass
+  Vec3 fixed_center;  // the vessel's own share of the center of mass
   Real lean, height;
 };
 

@@ -208,10 +208,10 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define HAND_TABLE 31               // closures of the gap's inverse, four a vec4
 #define HAND_VECTORS 288
 
-// Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's centre of mass.
+// Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's center of mass.
 #define LOAD_STRIDE 4
 
-// A state as the force kernel reads it: weight (N), the vessel's own share of the mass, lean of the centre of mass, and its height where the
+// A state as the force kernel reads it: weight (N), the vessel's own share of the mass, lean of the center of mass, and its height where the
 // vessel's own is on the axis; sine, cosine and angle of its tilt (angle -1: the state is left out), and the angle of the tilt before (-1: none).
 // A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for safe tilts, the angle of the tilt before (-1: none)
 // and the number of its fill, else the angle of its tilt and its fill as a fraction.
@@ -247,7 +247,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_TABLE 7               // whether the scene has a table, bool
 #define CONST_UNTIL_POURED 8        // of the forces: whether states may be left out, bool
 #define CONST_BETWEEN 9             // spheres on a bone between its joints, 0..MOST_BETWEEN
-#define CONST_OFF_AXIS 10           // of the forces: whether a vessel's own centre of mass lies off its axis, bool
+#define CONST_OFF_AXIS 10           // of the forces: whether a vessel's own center of mass lies off its axis, bool
 #define CONST_BARE 11               // .. whether contacts carry no moment (torsion 0), bool
 #define CONST_TOGETHER 12           // .. how many grips an invocation has, 1..
 #define CONST_ARM 13                // of the grips: azimuths at which the holder may take the vessel; 0: the scene has no arm
@@ -279,7 +279,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 template <class Real>
 #endif
 struct Parameters {
-  Real bound_height;      // m: centre and radius of a sphere that holds the vessel
+  Real bound_height;      // m: center and radius of a sphere that holds the vessel
   Real bound_radius;
   Real lattice_x, lattice_y, lattice_z, lattice_spacing;  // m
   Real mouth_height, mouth_radius;            // of the cavity, m
@@ -292,7 +292,7 @@ struct Parameters {
   Real force_base, force_range, force_max;    // N
   Real reference;         // torque reference per object, N m
   Real largest_mass;      // upright at the largest fill: kg,
-  Real largest_share, largest_height;         // the liquid's share of it and the height of its centre, m
+  Real largest_share, largest_height;         // the liquid's share of it and the height of its center, m
   Real friction, torsion; // mu, gamma (m)
   Real friction_angle;    // atan(mu), rad
   Real grip_strength;     // N

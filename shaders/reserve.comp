@@ -57,7 +57,7 @@ Real least_friction(Six direction, Real value) {
   return least;
 }
 
-// The weight upright at the largest fill, or a force of 1 N along an axis at its centre.
+// The weight upright at the largest fill, or a force of 1 N along an axis at its center.
 Six wanted_push(uint k) {
   Vec3 fixed_center = (Real(1) - scene.largest_share) * own_center;
   Vec3 at = load_center(Load(scene.largest_mass, fixed_center, Real(0), scene.largest_height), pour);

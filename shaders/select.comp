@@ -25,7 +25,7 @@ void main() {
   uint to = push.first == SELECT_FIRST_TO_SECOND || push.first == SELECT_SCORES_TO_SECOND ? middle : 0u;
   // a score must pass push.floor_*, the worst of the best so far, to matter; -1 stands for none, as any grip's score is at least 0
   Real floor_score = push_floor();
-  // an ordered list where it is handed on; few entries ever enter it, so shifting it is cheaper than sorting with its neighbours
+  // an ordered list where it is handed on; few entries ever enter it, so shifting it is cheaper than sorting with its neighbors
   uint list = to + block * push.number, last = list + push.number - 1u;
   for (uint i = list; i <= last; ++i) {
     candidate_scores[i] = Real(-1);
@@ -33,7 +33,7 @@ void main() {
   }
   Real last_score = floor_score;
   uint last_index = 0u;
-  // neighbours take neighbouring entries
+  // neighbors take neighboring entries
   for (uint entry = block; entry < push.count; entry += blocks) {
     Real score = from_scores ? real_out[uint(PLANE_SCORE) * push.stride + entry] : candidate_scores[from + entry];
     if (score < last_score) continue;

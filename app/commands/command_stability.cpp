@@ -29,7 +29,7 @@ constexpr Quantity FINGER{0, 1e6};
 constexpr IntegerRange SEED{0, 1000000000};
 }  // namespace wall_ranges
 
-constexpr double SMALLEST_STEP = 1e-12;  // m: a picometre
+constexpr double SMALLEST_STEP = 1e-12;  // m: a picometer
 
 struct WallArguments {
   std::string mass, damping, rate, wall_damping = "0", delay = "0", encoder = "0", coulomb = "0", finger;
@@ -114,7 +114,7 @@ void add_stability_command(CLI::App& app, Action& action) {
   add("--rate-hz", arguments->rate, "F", "Rate of the loop, samples per second")->required();
   add("--wall-damping-Nspm", arguments->wall_damping, "B", "Damping of the rendered wall, N s/m (default: 0)");
   add("--delay-samples", arguments->delay, "n", "Number of whole samples between reading and force (default: 0)");
-  add("--encoder-um", arguments->encoder, "D", "Step of the encoder at the handle, micrometres (default: 0, exact)");
+  add("--encoder-um", arguments->encoder, "D", "Step of the encoder at the handle, micrometers (default: 0, exact)");
   add("--coulomb-N", arguments->coulomb, "f", "Coulomb friction of the device (default: 0)");
   add("--finger", arguments->finger, "m,b,k", "Mass, damping and stiffness of the finger that holds the device: kg, N s/m, N/m");
   wall_command->add_flag("--json", arguments->json, "Print one JSON object in one line");

@@ -72,7 +72,7 @@ struct ViewFrame {
   Timing timing;
 };
 
-// One JSON object in one line. Numbers have the digits of a float: tenths of a micrometre in a hand.
+// One JSON object in one line. Numbers have the digits of a float: tenths of a micrometer in a hand.
 std::string frame_json(const ViewFrame& frame);
 
 // Makes frames of a session's ticks. The liquid's surface of a vessel that rests is kept from one frame to the next.

@@ -20,7 +20,7 @@ constexpr std::array<Rgb, 10> VIRIDIS{{{0x44, 0x01, 0x54},
                                        {0xb5, 0xde, 0x2b},
                                        {0xfd, 0xe7, 0x25}}};
 
-// The way from one colour to another, to whole numbers.
+// The way from one color to another, to whole numbers.
 Rgb between(const Rgb& from, const Rgb& to, double share) {
   Rgb color{};
   for (std::size_t k = 0; k < color.size(); ++k) color[k] = static_cast<int>(std::lround(from[k] + share * (to[k] - from[k])));

@@ -21,7 +21,7 @@ std::vector<double> cell_ticks(const std::vector<double>& edges, int count, bool
   return round_ticks(edges.front(), edges.back(), count, is_angle);
 }
 
-// Which colour of the scale a value has, and what that colour is.
+// Which color of the scale a value has, and what that color is.
 int shade_of(const ColorScale& scale, double value) {
   if (scale.steps > 0) return std::clamp(static_cast<int>(std::lround(value - scale.low)), 0, scale.steps - 1);
   const double share = scale.high > scale.low ? (value - scale.low) / (scale.high - scale.low) : 1;
@@ -33,8 +33,8 @@ std::string shade_color(const ColorScale& scale, int shade) {
   return sequential_color(last > 0 ? static_cast<double>(shade) / last : 1);
 }
 
-// Cells of one colour are one path, and those above one another one rectangle: a chart of many cells stays small. Each reaches a
-// little under its neighbours, so that a printer leaves no seams.
+// Cells of one color are one path, and those above one another one rectangle: a chart of many cells stays small. Each reaches a
+// little under its neighbors, so that a printer leaves no seams.
 void put_cells(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area) {
   constexpr double UNDER = 0.3;            // units
   constexpr int HOLLOW = -1, ABSENT = -2;  // the ground shows what is absent
@@ -65,7 +65,7 @@ void put_cells(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area)
   }
 }
 
-// A grey and what it means, from `x` on. Returns where that ends.
+// A gray and what it means, from `x` on. Returns where that ends.
 double put_swatch(MarkupWriter& svg, double x, double y, const char* style, const std::string& label) {
   svg.empty("rect", {{"x", chart_number(x)}, {"y", chart_number(y - 9)}, {"width", "12"}, {"height", "10"}, {"class", style}});
   put_text(svg, x + 16, y, label, "start");
@@ -123,7 +123,7 @@ void put_mark(MarkupWriter& svg, double x, double y, bool is_first) {
 // Where the parts of a chart are that begins at y = `top`.
 struct FieldPlaces {
   PlotArea area;
-  double scale = 0, greys = 0, end = 0;  // y
+  double scale = 0, grays = 0, end = 0;  // y
 };
 
 FieldPlaces field_places(const FieldChart& chart, double top) {
@@ -135,9 +135,9 @@ FieldPlaces field_places(const FieldChart& chart, double top) {
                  chart.x_edges.front(),    chart.x_edges.back(),
                  chart.y_edges.front(),    chart.y_edges.back()};
   places.scale = places.area.bottom + 8 + 4 * CHART_LETTER;
-  places.greys = places.scale + 2.6 * CHART_LETTER + 2;
-  const bool has_greys = !chart.absent.empty() || !chart.hollow.empty() || !chart.marks.empty();
-  places.end = places.scale + 2 * CHART_LETTER + (has_greys ? 1.4 * CHART_LETTER : 0);
+  places.grays = places.scale + 2.6 * CHART_LETTER + 2;
+  const bool has_grays = !chart.absent.empty() || !chart.hollow.empty() || !chart.marks.empty();
+  places.end = places.scale + 2 * CHART_LETTER + (has_grays ? 1.4 * CHART_LETTER : 0);
   return places;
 }
 
@@ -163,11 +163,11 @@ void put_field(MarkupWriter& svg, const FieldChart& chart, const FieldPlaces& pl
     put_mark(svg, area.x(mark->x), area.y(mark->y), mark->is_first);
   put_scale(svg, chart, area, places.scale);
   double x = 2;
-  if (!chart.hollow.empty()) x = put_swatch(svg, x, places.greys, "hollow", chart.hollow);
-  if (!chart.absent.empty()) x = put_swatch(svg, x, places.greys, "ground", chart.absent);
+  if (!chart.hollow.empty()) x = put_swatch(svg, x, places.grays, "hollow", chart.hollow);
+  if (!chart.absent.empty()) x = put_swatch(svg, x, places.grays, "ground", chart.absent);
   if (!chart.marks.empty()) {
-    put_mark(svg, x + 6, places.greys - 4, chart.marks.front().is_first);
-    put_text(svg, x + 16, places.greys, chart.mark, "start");
+    put_mark(svg, x + 6, places.grays - 4, chart.marks.front().is_first);
+    put_text(svg, x + 16, places.grays, chart.mark, "start");
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A chart: a field of cells that are coloured by their values.
+// A chart: a field of cells that are colored by their values.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace wholehand {
 
-// How values become colours.
+// How values become colors.
 struct ColorScale {
   std::string label;         // with its unit
-  double low = 0, high = 1;  // of the first and the last colour
+  double low = 0, high = 1;  // of the first and the last color
   int digits = 2;            // of the numbers at its ends
-  int steps = 0;             // > 0: the number of integers from `low` on, each with its own colour
+  int steps = 0;             // > 0: the number of integers from `low` on, each with its own color
 };
 
 enum class CellKind : unsigned char { absent, hollow, filled };
 
-// A field of cells, each of which has a colour by its value, or is one of two greys.
+// A field of cells, each of which has a color by its value, or is one of two grays.
 struct FieldChart {
   ChartName name;
   std::string x_label, y_label;          // with units
@@ -31,7 +31,7 @@ struct FieldChart {
   double plot_height = 236;       // of cells without names, units
   std::vector<double> values;     // y-major
   std::vector<CellKind> kinds;    // of the same size
-  std::string absent, hollow;     // what the greys mean; empty: there are none
+  std::string absent, hollow;     // what the grays mean; empty: there are none
   ColorScale scale;
   struct Mark {
     double x = 0, y = 0;

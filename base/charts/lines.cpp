@@ -15,7 +15,7 @@ namespace {
 
 using Point = std::array<double, 2>;  // units
 
-// A label: its box, with the sample of the line's colour at its left.
+// A label: its box, with the sample of the line's color at its left.
 struct LabelBox {
   double left = 0, top = 0, width = 0;
   double right() const { return left + width; }
@@ -120,7 +120,7 @@ PlotArea area_of(const LineChart& chart) {
   return area;
 }
 
-// The points of a line that are on the plot, the path through them, and those of them that have an infinite neighbour.
+// The points of a line that are on the plot, the path through them, and those of them that have an infinite neighbor.
 struct DrawnLine {
   std::vector<Point> points;
   std::string path;

@@ -19,7 +19,7 @@ struct LineChart {
   struct Line {
     std::string label;
     std::vector<double> y;           // NaN or infinite: a gap
-    double shade = 0;                // 0..1: its colour
+    double shade = 0;                // 0..1: its color
     std::optional<double> marked_x;  // a dot on the line
     bool is_dashed = false;
     bool marks_ends = false;  // a cross at each point beyond which the line is infinite

@@ -52,7 +52,7 @@ bool is_within(const PlotArea& area, const std::array<double, 2>& point) {
   return x >= area.left - SLACK && x <= area.right + SLACK && y >= area.top - SLACK && y <= area.bottom + SLACK;
 }
 
-// All boxes of a layer are one path. Each reaches a little under its neighbour, so that a printer leaves no seams.
+// All boxes of a layer are one path. Each reaches a little under its neighbor, so that a printer leaves no seams.
 void put_boxes(MarkupWriter& svg, const PlotArea& area, const PlotLayer& layer) {
   constexpr double UNDER = 0.3;  // units
   std::string path;

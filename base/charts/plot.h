@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A chart: areas, lines and points over two axes, with a legend. For pictures of their own, as its colours do not follow a page.
+// A chart: areas, lines and points over two axes, with a legend. For pictures of their own, as its colors do not follow a page.
 #pragma once
 
 #include <array>
@@ -57,7 +57,7 @@ struct PlotPlace {
 
 void put_plot(MarkupWriter& svg, const Plot& plot, const PlotPlace& place);
 
-// The labelled layers from the left to the right, in as many rows as it takes. `y`: the foot of the first row's letters. Returns
+// The labeled layers from the left to the right, in as many rows as it takes. `y`: the foot of the first row's letters. Returns
 // that of the last.
 double put_legend(MarkupWriter& svg, const std::vector<PlotLayer>& layers, double left, double y, double right);
 constexpr double LEGEND_STEP = 15;  // from row to row, units

@@ -7,7 +7,7 @@
 namespace wholehand {
 
 // Style sheets for a page that has charts in it and sets --ink, --soft, --page, --rule, --none, --hollow and --bad: what all charts
-// use, what lines with a colour by day and another by night use, and what box plots use.
+// use, what lines with a color by day and another by night use, and what box plots use.
 extern const char* const CHART_RULES;
 extern const char* const LINE_RULES;
 extern const char* const BOX_RULES;

@@ -157,7 +157,7 @@ std::string stl_input(const MeshFile& file, std::string_view bytes) {
   }
   if (bytes.size() == 84) file.refuse("has no triangle");
   std::string copy(bytes);
-  std::fill_n(copy.begin(), 80, '\0');  // its header: any text, such as one that assimp would take for colours
+  std::fill_n(copy.begin(), 80, '\0');  // its header: any text, such as one that assimp would take for colors
   return copy;
 }
 

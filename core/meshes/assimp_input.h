@@ -13,7 +13,7 @@ constexpr std::size_t MOST_CORNERS = 1000;  // of a polygon: cutting it into tri
 
 // The shape in `bytes` and nothing else, as a file of the same format that is whole: STL as binary STL, OBJ as vertices and faces with
 // positive indices, PLY as little-endian PLY of vertices and faces. Every number is finite and fits single precision, every index is that of a
-// vertex, and the triangles are at most MOST_TRIANGLES. Materials, normals, colours, texture coordinates, points and lines are left out.
+// vertex, and the triangles are at most MOST_TRIANGLES. Materials, normals, colors, texture coordinates, points and lines are left out.
 // Throws Error (usage), one line, where the file is damaged, truncated, too large or not made of polygons.
 std::string assimp_input(const MeshFile& file, MeshFormat format, std::string_view bytes);
 

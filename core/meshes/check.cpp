@@ -83,7 +83,7 @@ Triple count_edges(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses, M
   return {(facts.low[0] + facts.high[0]) / 2, (facts.low[1] + facts.high[1]) / 2, (facts.low[2] + facts.high[2]) / 2};
 }
 
-// Sums the tetrahedra of the triangles and `apex`, signed: volume and its centre.
+// Sums the tetrahedra of the triangles and `apex`, signed: volume and its center.
 void measure_volume(const TriangleMesh& mesh, const Triple& from, MeshFacts& facts) {
   const glm::dvec3 apex = to_vec3(from);
   glm::dvec3 moment(0);
@@ -110,11 +110,11 @@ double largest_extent(const MeshFacts& facts) {
 const char* was(std::size_t count) { return count == 1 ? "was" : "were"; }
 
 // Takes m.
-std::string millimetres(double length) { return plain_text(1e3 * length, 4); }
+std::string millimeters(double length) { return plain_text(1e3 * length, 4); }
 
 // The mesh's extent along an axis, mm.
 std::string span_text(const MeshFacts& facts, int axis) {
-  return millimetres(facts.low[axis]) + " to " + millimetres(facts.high[axis]);
+  return millimeters(facts.low[axis]) + " to " + millimeters(facts.high[axis]);
 }
 
 // Closes all holes, or says why not; without the wish only measures them.
@@ -127,8 +127,8 @@ void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, M
       throw usage_error(
           fmt::format("{}: close_holes: a hole is {} mm across, its edge {} mm long, and at most {} and {} mm are closed: "
                       "close it where the mesh was made, or leave out close_holes",
-                      name, millimetres(hole.across), millimetres(hole.length), millimetres(SMALL_HOLE * extent),
-                      millimetres(SMALL_HOLE_EDGE * extent)));
+                      name, millimeters(hole.across), millimeters(hole.length), millimeters(SMALL_HOLE * extent),
+                      millimeters(SMALL_HOLE_EDGE * extent)));
   }
   if (close_holes && holes.loose_edges > 0)
     throw usage_error(
@@ -147,11 +147,11 @@ void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, M
 // The remedy for an open mesh.
 std::string holes_text(const MeshFacts& facts) {
   if (facts.holes == 0) return ": close them for a sure answer.";
-  const std::string holes = fmt::format(": {}, up to {} mm across, ", counted(facts.holes, "hole"), millimetres(facts.widest_hole));
+  const std::string holes = fmt::format(": {}, up to {} mm across, ", counted(facts.holes, "hole"), millimeters(facts.widest_hole));
   if (facts.closable) return holes + "which close_holes = true closes.";
   if (facts.widest_hole > SMALL_HOLE * largest_extent(facts))
     return holes + fmt::format("more than the {} mm that close_holes closes: close them for a sure answer.",
-                               millimetres(SMALL_HOLE * largest_extent(facts)));
+                               millimeters(SMALL_HOLE * largest_extent(facts)));
   return holes + "which close_holes does not close, as an edge is too long or forms no loop: close them for a sure answer.";
 }
 
@@ -198,15 +198,15 @@ CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool c
 
 std::string filled_text(double volume, const Triple& center) {
   const auto hundredths = [](double length) { return plain_text(std::round(1e5 * length) / 100); };
-  return fmt::format("{} cm3, centre of mass ({}, {}, {}) mm", plain_text(1e6 * volume, 4), hundredths(center[0]),
+  return fmt::format("{} cm3, center of mass ({}, {}, {}) mm", plain_text(1e6 * volume, 4), hundredths(center[0]),
                      hundredths(center[1]), hundredths(center[2]));
 }
 
 std::string mesh_check_text(const MeshFacts& facts) {
   std::string text =
       fmt::format("{}, {} x {} x {} mm (x {}, y {}, z {}), ", counted(facts.triangles, "triangle"),
-                  millimetres(facts.high[0] - facts.low[0]), millimetres(facts.high[1] - facts.low[1]),
-                  millimetres(facts.high[2] - facts.low[2]), span_text(facts, 0), span_text(facts, 1), span_text(facts, 2));
+                  millimeters(facts.high[0] - facts.low[0]), millimeters(facts.high[1] - facts.low[1]),
+                  millimeters(facts.high[2] - facts.low[2]), span_text(facts, 0), span_text(facts, 1), span_text(facts, 2));
   text += facts.closed           ? "closed"
           : facts.open_edges > 0 ? fmt::format("not closed ({})", counted(facts.open_edges, "open edge"))
                                  : "not closed";
@@ -225,7 +225,7 @@ std::string mesh_check_text(const MeshFacts& facts) {
                         was(facts.back_triangles));
   if (facts.closed_holes > 0)
     text += fmt::format(" {} {} closed, up to {} mm across.", counted(facts.closed_holes, "hole"), was(facts.closed_holes),
-                        millimetres(facts.widest_closed_hole));
+                        millimeters(facts.widest_closed_hole));
   if (facts.oriented && facts.was_inside_out) {
     text += " It was inside out and has been turned round.";
   } else if (facts.oriented && facts.turned_triangles > 0) {

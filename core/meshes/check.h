@@ -52,7 +52,7 @@ struct CheckedMesh {
 // large.
 CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool close_holes = false);
 
-// "93.92 cm3, centre of mass (0, 39.14, 0) mm", to a hundredth of a millimetre; of m3 and m.
+// "93.92 cm3, center of mass (0, 39.14, 0) mm", to a hundredth of a millimeter; of m3 and m.
 std::string filled_text(double volume, const Triple& center);
 
 // What was found as one paragraph, with what follows from it; ends without a line break.

@@ -20,7 +20,7 @@ struct MeshEdge {
   bool is_crease = false;  // it has a right one, at CREASE_ANGLE or more
 };
 
-// Each edge once, and the unit normal of each triangle: of one without area that of its neighbour across its longest edge, zero where that
+// Each edge once, and the unit normal of each triangle: of one without area that of its neighbor across its longest edge, zero where that
 // has none either.
 struct MeshEdges {
   std::vector<MeshEdge> edges;

@@ -266,7 +266,7 @@ void refuse_buffers(const MeshFile& file, const GltfJson& trimmed, bool is_binar
 
 // The files beside a .gltf, as tinygltf asks for them. It also looks in the working directory, under "./NAME": here that is the same
 // folder.
-struct GltfNeighbours {
+struct GltfNeighbors {
   std::filesystem::path folder;
   std::string outside;  // the name that was asked for, where it leads out of the folder
 };
@@ -278,19 +278,19 @@ bool leads_outside(const std::string& name) {
          name.find('\0') != name.npos;
 }
 
-bool neighbour_exists(const std::string& name, void* user) {
-  auto& neighbours = *static_cast<GltfNeighbours*>(user);
+bool neighbor_exists(const std::string& name, void* user) {
+  auto& neighbors = *static_cast<GltfNeighbors*>(user);
   if (leads_outside(name)) {
-    if (neighbours.outside.empty()) neighbours.outside = name;
+    if (neighbors.outside.empty()) neighbors.outside = name;
     return false;
   }
   std::error_code error;
-  return std::filesystem::exists(neighbours.folder / name, error);
+  return std::filesystem::exists(neighbors.folder / name, error);
 }
 
-bool read_neighbour(std::vector<unsigned char>* bytes, std::string* error, const std::string& name, void* user) {
+bool read_neighbor(std::vector<unsigned char>* bytes, std::string* error, const std::string& name, void* user) {
   std::string contents;
-  *error = read_mesh_bytes((static_cast<GltfNeighbours*>(user)->folder / name).string(), contents);
+  *error = read_mesh_bytes((static_cast<GltfNeighbors*>(user)->folder / name).string(), contents);
   const FileKind kind = error->empty() ? file_kind(contents, contents.size()) : FileKind::unknown;
   if (kind == FileKind::lfs_pointer || kind == FileKind::web_page) *error = name + " " + wrong_kind(kind, "a buffer");
   bytes->assign(contents.begin(), contents.end());
@@ -321,10 +321,10 @@ std::string glb_of(std::string json, std::string_view binary) {
 }
 
 tinygltf::Model load_gltf(const MeshFile& file, const std::string& json, std::string_view binary) {
-  GltfNeighbours neighbours{std::filesystem::path(file.path).parent_path(), ""};
+  GltfNeighbors neighbors{std::filesystem::path(file.path).parent_path(), ""};
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(decodes_no_image, nullptr);
-  reader.SetFsCallbacks({neighbour_exists, same_name, read_neighbour, writes_nothing, &neighbours});
+  reader.SetFsCallbacks({neighbor_exists, same_name, read_neighbor, writes_nothing, &neighbors});
   tinygltf::Model model;
   std::string error, warning;
   bool is_read = false;
@@ -339,8 +339,8 @@ tinygltf::Model load_gltf(const MeshFile& file, const std::string& json, std::st
   } catch (const std::exception& thrown) {
     file.refuse(fmt::format("cannot be read as glTF: {}", thrown.what()));
   }
-  if (!neighbours.outside.empty())
-    file.refuse(fmt::format("names a buffer outside its own folder, which is not read: '{}'", neighbours.outside));
+  if (!neighbors.outside.empty())
+    file.refuse(fmt::format("names a buffer outside its own folder, which is not read: '{}'", neighbors.outside));
   if (!is_read || !error.empty()) file.refuse(fmt::format("cannot be read as glTF: {}", error));
   return model;
 }

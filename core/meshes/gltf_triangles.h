@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// All triangles of the default scene (the first where the file names none), placed by their nodes, in the file's metres. They are
+// All triangles of the default scene (the first where the file names none), placed by their nodes, in the file's meters. They are
 // counted before any is read. Throws Error (usage), one line, as read_mesh does.
 TriangleMesh gltf_triangles(const MeshFile& file, std::string_view bytes);
 

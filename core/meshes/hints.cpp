@@ -21,7 +21,7 @@ constexpr double ROUNDED = 1e-6;                      // of a number that was a 
 constexpr double CLEARLY_LONGER = 1.15;
 constexpr double FAR_SMALLER = 0.2;
 
-constexpr std::array UNITS{LengthUnit{"metres", 1}, LengthUnit{"centimetres", 0.01}, LengthUnit{"millimetres", 0.001},
+constexpr std::array UNITS{LengthUnit{"meters", 1}, LengthUnit{"centimeters", 0.01}, LengthUnit{"millimeters", 0.001},
                            LengthUnit{"inches", 0.0254}};
 
 double largest(const Triple& size) { return *std::max_element(size.begin(), size.end()); }
@@ -79,7 +79,7 @@ SizeHint mesh_size_hint(const Triple& size, double scale) {
     likely.push_back(fmt::format("{:.6g} ({}: {})", unit.meters, unit.name, length_text(unit.meters * largest(numbers))));
   SizeHint hint;
   hint.is_other_unit = !likely.empty() || extent > HUGE_MESH || extent < TINY_MESH;
-  hint.text = fmt::format("it is {} large, which a hand hardly holds: its numbers{} are taken as metres; ", length_text(extent),
+  hint.text = fmt::format("it is {} large, which a hand hardly holds: its numbers{} are taken as meters; ", length_text(extent),
                           scale == 1 ? "" : fmt::format(" times {:.6g}", scale));
   if (likely.empty()) {
     hint.text +=
@@ -138,7 +138,7 @@ std::string inner_outline_hint(double height, double radius, double body_height,
   for (const LengthUnit& unit : UNITS) {
     const double factor = unit.meters / 1e-3, share = factor * std::max(height / body_height, radius / reach);
     if (factor > 1 && share <= 1 && share > 0.5)
-      hint += fmt::format("; it is read as millimetres, and its numbers look like {}: multiply them by {:.4g}", unit.name, factor);
+      hint += fmt::format("; it is read as millimeters, and its numbers look like {}: multiply them by {:.4g}", unit.name, factor);
   }
   return hint;
 }

@@ -15,7 +15,7 @@ struct LengthUnit {
   double meters;
 };
 
-// The units among metres, centimetres, millimetres and inches in which a hand can hold a body of these extents along x, y and z: at most
+// The units among meters, centimeters, millimeters and inches in which a hand can hold a body of these extents along x, y and z: at most
 // 400 mm large, one side that a hand can span, and no smaller than 20 mm. The likeliest first: nearest to 150 mm.
 std::vector<LengthUnit> graspable_units(const Triple& numbers);
 

@@ -37,7 +37,7 @@ constexpr double FAR_FOR_HALVES = 32;                             // m: half of 
 constexpr double TIMED_SECONDS = 0.2;                             // of a lattice's work, before its time is estimated
 constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels count in 32 bits
 
-// Random points of the surface, as many a square metre everywhere; the same ones each time. Those that lie within are left out, where
+// Random points of the surface, as many a square meter everywhere; the same ones each time. Those that lie within are left out, where
 // bodies overlap: nobody touches them, and the distance is not 0 there.
 std::vector<Triple> surface_points(const MeshDistance& distance, const TriangleMesh& mesh, int count) {
   const auto corner = [&](std::size_t triangle, int k) { return to_vec3(mesh.vertices[mesh.triangles[triangle][k]]); };
@@ -308,7 +308,7 @@ MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mes
 
 // A sample stands for a cell about it, of which a wall at the distance d across leaves 1/2 - d / spacing. Along any line across two walls
 // that are a cell apart or more those shares add up to the way between them; of walls that are nearer they add up to more, by up to a
-// quarter of a cell. A sample half a cell from a wall has a neighbour across it; one that has none is at a wall within another body.
+// quarter of a cell. A sample half a cell from a wall has a neighbor across it; one that has none is at a wall within another body.
 EnclosedVolume enclosed_volume(const PreparedLattice& lattice, double area) {
   const core_f64::Vessel vessel = kernel_vessel(lattice);
   const auto is_inside = [&](int i, int j, int k) {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double FARTHEST = 1e9;             // m: beyond it squares and cubes lose their meaning
 constexpr std::size_t FEWEST_TRIANGLES = 4;  // a tetrahedron
-constexpr double MOST_ROUNDING = 1e-3;       // of a mesh's extent: a tenth of a millimetre of a cup
+constexpr double MOST_ROUNDING = 1e-3;       // of a mesh's extent: a tenth of a millimeter of a cup
 
 // Columns of Rx Ry Rz.
 glm::dmat3 turn_of(const Triple& angles) {

@@ -26,7 +26,7 @@
 namespace wholehand {
 namespace {
 
-// Within how much of the mesh's box a cavity must lie, m: an inner outline is written in rounded millimetres.
+// Within how much of the mesh's box a cavity must lie, m: an inner outline is written in rounded millimeters.
 constexpr double ROUNDED_OUTLINE = 0.1e-3;
 
 constexpr double OTHER_VOLUME = 0.05;  // of the mesh's: the lattice's volume is then another one, not a coarse one
@@ -140,7 +140,7 @@ std::string mass_text(const VesselData& vessel, const MeshBody& body) {
                                      : "; a solid object, without liquid: it has no inner_outline");
 }
 
-// Takes volume and centre of mass from the mesh, or its lattice where triangles do not determine them: they cannot all face outward, a wall
+// Takes volume and center of mass from the mesh, or its lattice where triangles do not determine them: they cannot all face outward, a wall
 // ends within the body, or bodies overlap, so that the sum over triangles counts some parts twice. Returns the sentence that says so, else "".
 std::string set_volume(const MeshFacts& facts, const std::string& name, bool has_mass, MeshBody& body) {
   body.volume = facts.volume;

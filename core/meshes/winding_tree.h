@@ -10,7 +10,7 @@
 namespace wholehand {
 
 // Barill, Dickson, Schmidt, Levin and Jacobson, "Fast winding numbers for soups and clouds" (2018), with the first term of their
-// expansion: a cluster of triangles seen from afar is a dipole of its summed area vectors at its centre.
+// expansion: a cluster of triangles seen from afar is a dipole of its summed area vectors at its center.
 class WindingTree {
  public:
   explicit WindingTree(const TriangleMesh& mesh);
@@ -20,7 +20,7 @@ class WindingTree {
  private:
   struct Node {
     glm::dvec3 center{}, area{};        // mean weighted by area, m; summed area vectors, m2
-    double radius = 0;                  // around the centre, of a ball that holds the triangles, m
+    double radius = 0;                  // around the center, of a ball that holds the triangles, m
     std::uint32_t first = 0, last = 0;  // of `order_`
     std::uint32_t left = 0, right = 0;  // 0: a leaf
   };

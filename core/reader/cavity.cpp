@@ -129,7 +129,7 @@ void read_cavity(const SceneTable& table, const Silhouette& silhouette, VesselDa
   const std::vector<RawElement> inner =
       read_elements(table, "inner_outline",
                     [&](const RawElement& raw, bool is_first, bool is_last) { check_inner_element(file, raw, is_first, is_last); });
-  vessel.inner = in_metres(inner);
+  vessel.inner = in_meters(inner);
   vessel.cavity_place = file.text_of(table.place("inner_outline"));
   if (vessel.mesh) return;
   vessel.wall = to_si(check_within(file, silhouette, inner), Unit::mm);

@@ -25,7 +25,7 @@ Point read_point(const SceneFile& file, const toml::node& node, const char* what
     file.refuse(place_of(node), std::string(what) + (pair ? fmt::format(" has {} entries", pair->size()) : " " + found(node)),
                 "allowed: [r, y] in mm");
   }
-  // checked in the file's unit, and kept in it: the conversion to metres comes last
+  // checked in the file's unit, and kept in it: the conversion to meters comes last
   const Quantity r_plain{r_range.low, r_range.high}, y_plain{y_range.low, y_range.high};
   return {read_number(file, (*pair)[0], fmt::format("r of {}", what), r_plain),
           read_number(file, (*pair)[1], fmt::format("y of {}", what), y_plain)};
@@ -152,9 +152,9 @@ bool round_corners(const SceneFile& file, std::vector<RawElement>& elements) {
   return any;
 }
 
-OutlineElement in_metres(const RawElement& raw, const Point& end) {
-  const auto to_metres = [](const Point& p) { return Point{to_si(p[0], Unit::mm), to_si(p[1], Unit::mm)}; };
-  return {raw.curve.is_arc, to_metres(end), to_metres(raw.curve.center), raw.place.line, raw.place.column};
+OutlineElement in_meters(const RawElement& raw, const Point& end) {
+  const auto to_meters = [](const Point& p) { return Point{to_si(p[0], Unit::mm), to_si(p[1], Unit::mm)}; };
+  return {raw.curve.is_arc, to_meters(end), to_meters(raw.curve.center), raw.place.line, raw.place.column};
 }
 
 }  // namespace
@@ -189,16 +189,16 @@ std::vector<RawElement> read_elements(const SceneTable& vessel, const char* key,
   return elements;
 }
 
-std::vector<OutlineElement> in_metres(const std::vector<RawElement>& elements) {
+std::vector<OutlineElement> in_meters(const std::vector<RawElement>& elements) {
   std::vector<OutlineElement> outline;
   for (const RawElement& raw : elements) {
     const PlaneCurve& curve = raw.curve;
     if (raw.by_sweep && std::abs(curve.sweep) > LONGEST_SWEEP) {
       const double middle = curve.from + curve.sweep / 2;
       outline.push_back(
-          in_metres(raw, {curve.center[0] + curve.radius * std::cos(middle), curve.center[1] + curve.radius * std::sin(middle)}));
+          in_meters(raw, {curve.center[0] + curve.radius * std::cos(middle), curve.center[1] + curve.radius * std::sin(middle)}));
     }
-    outline.push_back(in_metres(raw, curve.b));
+    outline.push_back(in_meters(raw, curve.b));
   }
   return outline;
 }

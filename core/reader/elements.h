@@ -20,7 +20,7 @@ struct RawElement {
   Place fillet_place;
 };
 
-// In mm, to nanometres, so that rounding does not show.
+// In mm, to nanometers, so that rounding does not show.
 std::string show(double length);
 std::string show(const Point& p);
 
@@ -33,6 +33,6 @@ using ElementCheck = std::function<void(const RawElement& raw, bool is_first, bo
 std::vector<RawElement> read_elements(const SceneTable& vessel, const char* key, const ElementCheck& check);
 
 // In SI; an arc that is not the shorter way round its center becomes two.
-std::vector<OutlineElement> in_metres(const std::vector<RawElement>& elements);
+std::vector<OutlineElement> in_meters(const std::vector<RawElement>& elements);
 
 }  // namespace wholehand

@@ -77,7 +77,7 @@ Silhouette read_outline(const SceneTable& vessel) {
   check_whole(file, elements);
 
   Silhouette silhouette;
-  silhouette.elements = in_metres(elements);
+  silhouette.elements = in_meters(elements);
   for (const RawElement& raw : elements)
     silhouette.largest_radius = std::max(silhouette.largest_radius, to_si(raw.curve.extent(0), Unit::mm));
   silhouette.height = to_si(elements.back().curve.b[1], Unit::mm);

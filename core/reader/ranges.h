@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a scene file or a command line may say: the range of every quantity, in the unit of its key. The ranges are wide: they keep
-// out slips (a length in metres, an angle in radians by the hundred) and what the kernels have no meaning for, not unusual scenes.
+// out slips (a length in meters, an angle in radians by the hundred) and what the kernels have no meaning for, not unusual scenes.
 // docs/scene.md lists them beside the keys.
 #pragma once
 

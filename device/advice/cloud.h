@@ -24,7 +24,7 @@ struct Reach {
 };
 
 // About `present` on a vessel. Heights stay on the vessel. The azimuth stays where it changes nothing: on a body of revolution
-// whose centre of mass lies on its axis. The hand is the person's own: its scale stays. `keeps_line`: azimuth and an offset of 0
+// whose center of mass lies on its axis. The hand is the person's own: its scale stays. `keeps_line`: azimuth and an offset of 0
 // stay, too.
 Reach reach_of(const VesselData& vessel, const GripInput& present, bool keeps_line = false);
 

@@ -17,7 +17,7 @@ std::string advice_words(const Advice& advice);
 // The way from one grip to another: "8 mm higher, wrist 12 degrees up, index finger 5 degrees up, around by 20 degrees to the
 // right, 3 mm towards you". Height and index finger are along the vessel's axis. The other directions are those in which the
 // wrist, the hand about the vessel, and the line of the tips go in the world, as a person at +z sees them: the nearest of up,
-// down, left, right, towards and away. `rotation`: of the vessel, to the world. Less than a millimetre or a degree is left out.
+// down, left, right, towards and away. `rotation`: of the vessel, to the world. Less than a millimeter or a degree is left out.
 // Empty: no way.
 std::string way_words(const GripInput& from, const GripInput& to, const Rotation& rotation = NO_ROTATION,
                       Handedness handedness = Handedness::right);

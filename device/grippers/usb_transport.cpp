@@ -81,7 +81,7 @@ UsbTransport::~UsbTransport() {
   for (const Incoming& incoming : incoming_) is_all_done &= wait_while(incoming.is_in_flight, RELEASE_PATIENCE * 1e-3);
   libusb_release_interface(handle_, part_.interface);
   libusb_close(handle_);
-  if (!is_all_done) return;  // a kernel that keeps a cancelled transfer: libusb may still read it
+  if (!is_all_done) return;  // a kernel that keeps a canceled transfer: libusb may still read it
   for (Incoming& incoming : incoming_) libusb_free_transfer(incoming.transfer);
   libusb_free_transfer(output_);
 }

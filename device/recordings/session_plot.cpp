@@ -24,7 +24,7 @@ constexpr std::size_t PLOT_COLUMNS = 1400;    // of time; more ticks than that a
 constexpr double NARROWEST_RUN = 1.0 / 4000;  // of the time that is shown: less is not seen
 constexpr double NARROWEST_LETTER = 1.0 / 60;
 
-// Tints, which differ in lightness too; and a letter each, for print without colours.
+// Tints, which differ in lightness too; and a letter each, for print without colors.
 struct StateShade {
   SessionState state;
   std::string color;

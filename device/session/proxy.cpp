@@ -141,7 +141,7 @@ bool Walk::move() noexcept {
   const Surroundings here = surroundings(obstacles, at, radius);
   const double clear = std::max(0.0, here.separation);
   const Heading ahead = heading(here, clear);
-  // the centre stays outside of the surface itself if it goes less than its distance; half the radius leaves room for the way back out. What
+  // the center stays outside of the surface itself if it goes less than its distance; half the radius leaves room for the way back out. What
   // slides goes through a surface only aslant: less than a wall's thickness brings it through none.
   const double sure = clear + 0.5 * radius + LEAST_STEP;
   const double step = std::min({ahead.length, most, ahead.along ? std::max(sure, obstacles.thinnest - 3 * LEAST_STEP) : sure});

@@ -42,7 +42,7 @@ struct Proxy {
 // The proxy for a tip that is now at `tip`, m, where it was `before`. It goes towards the tip, along the surfaces that it meets, in steps that
 // cannot pass one, and is moved out along the normal after each, until it is as near as it gets. Friction: on a surface it stays
 // where it is while the tip pulls it sideways by less than `friction` times the depth, and otherwise lags behind by that much. It never ends
-// inside, and where PROXY_MOVES steps do not suffice it goes on in the next tick. A bare point counts as one of a micrometre.
+// inside, and where PROXY_MOVES steps do not suffice it goes on in the next tick. A bare point counts as one of a micrometer.
 // Degenerate: in an edge where two surfaces meet it is moved out of one after the other; where that does not end it stays.
 Proxy carry_proxy(const Obstacles& obstacles, const Proxy& before, core_f64::Vec3 tip, double radius, double friction) noexcept;
 constexpr int PROXY_MOVES = 48;

@@ -132,7 +132,7 @@ void Session::approach(const HandPose& pose, Tick& tick) noexcept {
     tick.proxies[k] = to_triple(workspace_.across(proxy.place));
   }
   tick.wanted.arm = workspace_.to_device(forces[0] + forces[1]);
-  // what moves both tips apart by one metre of gap moves each by half of it
+  // what moves both tips apart by one meter of gap moves each by half of it
   tick.wanted.grip = 0.5 * glm::dot(forces[1] - forces[0], pose.rotation[0]);
   tick.feedback = tick.wanted.grip;
   tick.user_force = tick.feedback;

@@ -18,7 +18,7 @@ struct HeldBall {
   double radius = 0;
 };
 
-// The hand's 24 points at a grip, and points of the vessel's outer surface, a few millimetres apart. A mesh has them all over:
+// The hand's 24 points at a grip, and points of the vessel's outer surface, a few millimeters apart. A mesh has them all over:
 // no place on its surface is further than 5 mm from a point.
 std::vector<HeldBall> held_hand(const HandData& hand, const GripInput& grip, const GripResult& result);
 std::vector<HeldBall> held_vessel(const VesselData& vessel, const GripInput& grip, Handedness handedness);

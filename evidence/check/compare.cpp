@@ -620,7 +620,7 @@ double Comparer::volume_tolerance(std::size_t vessel) const {
   return (4 * allowed_.level_tolerance + ROUNDINGS * allowed_.epsilon) * core_.constants(vessel).capacity;
 }
 
-// The level is solved to its tolerance of the capacity and sums of slices are rounded; a centre of mass is compared by its moment, since
+// The level is solved to its tolerance of the capacity and sums of slices are rounded; a center of mass is compared by its moment, since
 // the last drop's place means nothing.
 void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b) {
   if (a.empty()) return;

@@ -58,7 +58,7 @@ double compared_form(int field, double value);
 // |a - b|: 0 for two NaN or two infinities of one sign, infinite where one side alone is no number.
 double figure_difference(double a, double b);
 
-// Height and lean of the centre of mass of glass and liquid, m; the glass's own share to the side is left out, which no state changes.
+// Height and lean of the center of mass of glass and liquid, m; the glass's own share to the side is left out, which no state changes.
 std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid);
 
 // One quantity's comparison over all grips and vessels compared so far.

@@ -21,7 +21,7 @@ constexpr std::size_t CHUNKS_IN_FLIGHT = 3;         // of a device, at most, and
 const std::size_t CHUNKS_BYTES = CHUNKS_IN_FLIGHT * host::StreamOptions().slot_bytes;
 
 // Random grips within the scene's axes: its own as Sobol points, by the seed. Alike ones follow each other, by height the last, as in a
-// sweep: a device evaluates neighbours together.
+// sweep: a device evaluates neighbors together.
 std::vector<std::vector<GripInput>> random_error_grips(const Scene& scene, std::size_t count, std::uint64_t seed) {
   Scene sampled = scene;
   sampled.grips.sampling = Sampling::sobol;

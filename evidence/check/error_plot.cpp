@@ -18,7 +18,7 @@ constexpr double FRONT_LEFT = 46, FRONT_RIGHT = 440, FRONT_HEIGHT = 330, FRONT_S
 constexpr double NAMES_LEFT = FRONT_RIGHT + 22, NAMES_STEP = 14;                              // of what is beside it
 constexpr double LEAST_ERROR_SHOWN = 1e-9;  // of the axis' unit: where an error of 0 stands
 
-// Colours that colour-blind readers distinguish, and a mark of its own for each.
+// Colors that color-blind readers distinguish, and a mark of its own for each.
 struct FrontGroup {
   const char* name;
   bool on_core;

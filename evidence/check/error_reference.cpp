@@ -218,7 +218,7 @@ void ErrorReference::compare_liquid(const std::vector<std::vector<LiquidResult>>
   row.errors[ERROR_COM] = figures_of(center.values, center.where);
 }
 
-// The signed distance itself, inside and as far out as a touching point's centre.
+// The signed distance itself, inside and as far out as a touching point's center.
 ErrorFigures ErrorReference::compare_distance(const Evaluator& core) const {
   constexpr std::size_t POINTS = 4096;
   const double margin = lattice_margin(scene_);

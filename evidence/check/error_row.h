@@ -74,7 +74,7 @@ struct ErrorRow {
   std::size_t memory_bytes = 0;  // tables and lattices, and inputs and planes of a sweep of one vessel's grips
   std::string device, driver;
 
-  // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, centre of mass), and of the forces', N;
+  // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, center of mass), and of the forces', N;
   // a hold force on one side alone is wrong by infinity. NaN: the variant answers another question, nothing of it compares, or, for
   // lengths, it varies what no length depends on.
   double length_error() const;

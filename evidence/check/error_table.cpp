@@ -247,7 +247,7 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
   for (const std::string& note : context.notes) text += fmt::format("Note: {}.\n", note);
   text +=
       "\n## The fastest variant under an error\n\nThe error of lengths is the largest 99.9th percentile among separation, posed "
-      "joints, proxies, gap and centre of mass.\nThe error of forces is the largest among feedback and hold force. The time is the "
+      "joints, proxies, gap and center of mass.\nThe error of forces is the largest among feedback and hold force. The time is the "
       "kernel time of one grip.\nIf the spread of the runs does not separate some variants, the first of them is named.\n\n"
       "| error under | variant | time per grip | its error |\n|---|---|---|---|\n";
   add_fastest(text, rows, &ErrorRow::length_error, {1, 10, 100}, length_error_text);
@@ -273,7 +273,7 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
   if (const std::string liquid = liquid_times(rows); !liquid.empty()) {
     text +=
         "\n## The liquid\n\nThe liquid is prepared once per vessel, so it is not part of a grip's time.\n\n"
-        "| points per piece | time per state, core, one thread | largest volume error | largest centre of mass error "
+        "| points per piece | time per state, core, one thread | largest volume error | largest center of mass error "
         "|\n|---|---|---|---|\n" +
         liquid;
   }

@@ -16,9 +16,9 @@ struct GatheredPlanes;
 // `volume` times twice the vessel's height H, and a number by the share `rounding` of what it is the sum or product of; density rho,
 // gravity g, total mass M of a state and M_max of the heaviest:
 //   mass           dm = rho volume
-//   centre of mass 3 dm H / M          moments twice, and the mass they are divided by once
+//   center of mass 3 dm H / M          moments twice, and the mass they are divided by once
 //   torque         g dm (3 H + L)      L: H and the hand's reach, which no pivot exceeds
-//                  + rounding g M_max (L + the centre of mass's way off)   however small the tilt's sine makes the torque itself
+//                  + rounding g M_max (L + the center of mass's way off)   however small the tilt's sine makes the torque itself
 //   normal force   range (torque's + tau / tau_ref times the same for tau_ref) / tau_ref
 //   hold force     (g dm / 2 + the liquid's torque / (2 gamma)) / mu + g dm / 2
 //                  where gamma = 0 without the liquid's torque: contacts hold none, or the force is infinite

@@ -31,7 +31,7 @@
 namespace wholehand {
 namespace {
 
-std::string newtons_per_metre(double limit) { return std::isfinite(limit) ? fixed_text(limit, 0) : std::string("no limit"); }
+std::string newtons_per_meter(double limit) { return std::isfinite(limit) ? fixed_text(limit, 0) : std::string("no limit"); }
 
 constexpr FolderTable STABILITY_TABLES[] = {{"wall.csv", "sheet,mass_kg,"},
                                             {"wall_limits.csv", "sheet,mass_kg,"},
@@ -92,8 +92,8 @@ void write_walls(std::string& out, const std::vector<WallSheet>& sheets, const W
       device.damping = named.damping;
       device.rate = rate;
       const WallLimits limits = wall_limits(device);
-      append_formatted(out, " {} / {} / {} |", newtons_per_metre(limits.simulated), newtons_per_metre(limits.linear),
-                       newtons_per_metre(limits.passive));
+      append_formatted(out, " {} / {} / {} |", newtons_per_meter(limits.simulated), newtons_per_meter(limits.linear),
+                       newtons_per_meter(limits.passive));
     }
   }
   append_formatted(out, "\n\nThe linear limit over the delay, at 1 kHz, for {}:", wall_devices().front().name);
@@ -102,7 +102,7 @@ void write_walls(std::string& out, const std::vector<WallSheet>& sheets, const W
   device.damping = wall_devices().front().damping;
   for (int delay = 0; delay <= LOOP_DELAYS; ++delay) {
     device.delay = delay;
-    append_formatted(out, "{} {} samples {} N/m", delay == 0 ? "" : ",", delay, newtons_per_metre(wall_theory(device).linear));
+    append_formatted(out, "{} {} samples {} N/m", delay == 0 ? "" : ",", delay, newtons_per_meter(wall_theory(device).linear));
   }
   append_formatted(out, ".\n");
   for (const WallSheet& sheet : sheets) {
@@ -112,7 +112,7 @@ void write_walls(std::string& out, const std::vector<WallSheet>& sheets, const W
     for (const WallColumn& column : sheet.columns) {
       const WallPoint& first = column.points.front();
       if (first.device.mass != device.mass || first.device.damping != device.damping) continue;
-      const std::string limit = newtons_per_metre(integrator_limit(first.device, first.integrator, first.substeps));
+      const std::string limit = newtons_per_meter(integrator_limit(first.device, first.integrator, first.substeps));
       if (first.integrator == LOOP_EXACT) {
         append_formatted(out, "{} exact {}", separator, limit);
       } else {
@@ -147,7 +147,7 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
       loop.device_mass = mass;
       loop.device_damping = damping;
       loop.rate = rate;
-      append_formatted(out, " {} / {} |", newtons_per_metre(largest_k_open(loop)), newtons_per_metre(sampled_k_open(loop)));
+      append_formatted(out, " {} / {} |", newtons_per_meter(largest_k_open(loop)), newtons_per_meter(sampled_k_open(loop)));
     }
   }
   append_formatted(
@@ -159,8 +159,8 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
   for (const double reaction : {0.2, 0.3, 0.4, 0.6}) {
     GripLoop loop;
     loop.reaction = reaction;
-    append_formatted(out, "{} {:g} ms {} / {}", separator, reaction * 1e3, newtons_per_metre(largest_k_open(loop)),
-                     newtons_per_metre(reaction_k_open(loop)));
+    append_formatted(out, "{} {:g} ms {} / {}", separator, reaction * 1e3, newtons_per_meter(largest_k_open(loop)),
+                     newtons_per_meter(reaction_k_open(loop)));
     separator = ",";
   }
   std::array<std::size_t, GRIP_OUTCOMES> counts{};
@@ -191,8 +191,8 @@ void write_gains(std::string& out) {
       "ms.\n\n| rate | K | k_open |\n|---|---|---|\n");
   for (const double rate : RATES) {
     const GainLimits limits = gain_limits(rate, 1);
-    append_formatted(out, "| {} Hz | {} | {} |\n", plain_text(rate), newtons_per_metre(limits.stiffness),
-                     newtons_per_metre(limits.k_open));
+    append_formatted(out, "| {} Hz | {} | {} |\n", plain_text(rate), newtons_per_meter(limits.stiffness),
+                     newtons_per_meter(limits.k_open));
   }
 }
 

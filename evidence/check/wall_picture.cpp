@@ -41,7 +41,7 @@ Panel panel_of(const WallSheet& sheet, const std::string& title, const std::stri
   return panel;
 }
 
-// Half way between neighbours, on the axis as it is drawn; as far beyond the ends.
+// Half way between neighbors, on the axis as it is drawn; as far beyond the ends.
 std::vector<double> edges_of(std::vector<double> at, bool is_logarithmic) {
   const auto drawn = [is_logarithmic](double x) { return is_logarithmic ? std::log(x) : x; };
   for (double& x : at) x = drawn(x);
@@ -54,7 +54,7 @@ std::vector<double> edges_of(std::vector<double> at, bool is_logarithmic) {
   return edges;
 }
 
-// Boxes of the points of one column that settle, or that do not: a run of neighbours is one box.
+// Boxes of the points of one column that settle, or that do not: a run of neighbors is one box.
 void add_runs(std::vector<PlotBox>& boxes, const WallColumn& column, bool settled, double left, double right) {
   std::vector<double> stiffness;
   for (const WallPoint& point : column.points) stiffness.push_back(point.stiffness);

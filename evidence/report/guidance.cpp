@@ -21,7 +21,7 @@ std::string r_text(const Correlation& correlation) {
   return correlation.r ? shown_number(*correlation.r, 2) : std::string("none, ") + words_of(correlation.lack);
 }
 
-std::string in_mm(double metres, int digits = 1) { return shown_number(metres * 1e3, digits); }
+std::string in_mm(double meters, int digits = 1) { return shown_number(meters * 1e3, digits); }
 
 // A field over the bins of the distance.
 FieldChart distance_chart(const GuidanceStatistics& statistics) {

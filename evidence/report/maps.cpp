@@ -101,7 +101,7 @@ std::string cell_text(const ReportSource& source, std::size_t vessel, const MapC
   return grip_text(source.plan, source.plan.grip(vessel, cell.grip));
 }
 
-// What all maps of a vessel have in common: edges, greys and marks.
+// What all maps of a vessel have in common: edges, grays and marks.
 FieldChart map_frame(const ReportSource& source, std::size_t vessel, const GripMap& map, const std::vector<Candidate>& best) {
   FieldChart chart;
   chart.x_label = "roll (°)";
@@ -149,7 +149,7 @@ std::string extent_text(const GripMap& map, double MapCell::*value, int digits) 
   return fmt::format("{} to {}", shown_number(low, digits), shown_number(high, digits));
 }
 
-// The map of the least worst effort has greys of its own: dark where a grip is plausible and nothing holds the vessel.
+// The map of the least worst effort has grays of its own: dark where a grip is plausible and nothing holds the vessel.
 void write_effort_map(MarkupWriter& html, const ReportSource& source, std::size_t vessel, FieldChart frame, const GripMap& map,
                       const ColorScale& scale, ChartName name) {
   frame.kinds.clear();
@@ -187,10 +187,9 @@ std::string maps_caption(const ReportSource& source, const GripMap& map) {
   } else if (!others.empty()) {
     caption = fmt::format("Each cell shows the best grip over {}. ", others);
   }
-  caption += map.has_efforts
-                 ? "The maps of the score, the fingers and the force show the same grips; colours mean the same for all "
-                   "vessels."
-                 : "All maps of a vessel show the same grips; colours mean the same for all vessels.";
+  caption += map.has_efforts ? "The maps of the score, the fingers and the force show the same grips; colors mean the same for all "
+                               "vessels."
+                             : "All maps of a vessel show the same grips; colors mean the same for all vessels.";
   if (map.is_by_core) caption += " The file lacks some of the fingers and forces; the core computed them in double precision.";
   if (map.has_efforts) {
     caption +=
@@ -198,7 +197,7 @@ std::string maps_caption(const ReportSource& source, const GripMap& map) {
         "weak.";
     double low = 0, high = 0;
     if (value_range({map}, &MapCell::effort, low, high) && high > MOST_MAPPED_EFFORT)
-      caption += fmt::format(" Efforts above {} have the colour of {}.", plain_number(MOST_MAPPED_EFFORT),
+      caption += fmt::format(" Efforts above {} have the color of {}.", plain_number(MOST_MAPPED_EFFORT),
                              plain_number(MOST_MAPPED_EFFORT));
   }
   if (!map.has_fingers) caption += " The file does not have the fingers used.";

@@ -49,11 +49,11 @@ inline GripMap read_map(const ReportSource& source, std::size_t vessel) {
   return read_map(source, vessel, effort_variable(source));
 }
 
-// Colours for all vessels alike, so that their maps can be compared.
+// Colors for all vessels alike, so that their maps can be compared.
 struct MapScales {
   ColorScale score, fingers, peak_force, effort;
 };
-constexpr double MOST_MAPPED_EFFORT = 2;  // greater ones have its colour
+constexpr double MOST_MAPPED_EFFORT = 2;  // greater ones have its color
 MapScales map_scales(const std::vector<GripMap>& maps);
 
 // A figure of the maps there are, with the listed grips marked. `id`: of the vessel, in the page.

@@ -41,7 +41,7 @@ std::vector<StudyVessel> study_vessels(const Scene& scene) {
   return vessels;
 }
 
-// Without what touching does not depend on: mass and load, efforts, tilts, and the table. Mass and its centre are given, so that no
+// Without what touching does not depend on: mass and load, efforts, tilts, and the table. Mass and its center are given, so that no
 // wall is needed but that of a shell, where fingers may touch it from within.
 Scene bare_scene(const Scene& scene, const std::vector<StudyVessel>& vessels, Pose pose) {
   Scene bare = scene;

@@ -42,7 +42,7 @@ std::string contact_summary(std::span<const StudyRow> rows) {
 std::string study_summary(std::span<const StudyRow> rows) {
   std::string text;
   const auto is_sensitivity = [](const StudyRow& row) { return row.statistic.starts_with(FIRST_ORDER_OF); };
-  // the rows of an experiment are neighbours, and those of sensitivity come last
+  // the rows of an experiment are neighbors, and those of sensitivity come last
   rows = rows.first(static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), is_sensitivity) - rows.begin()));
   for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
     while (end < rows.size() && rows[end].experiment == rows[first].experiment) ++end;

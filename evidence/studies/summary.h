@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// Experiment by experiment, whose rows must be neighbours: a line for each pose and vessel of contacts, and for other experiments a
+// Experiment by experiment, whose rows must be neighbors: a line for each pose and vessel of contacts, and for other experiments a
 // line for each statistic.
 std::string study_summary(std::span<const StudyRow> rows);
 

@@ -66,7 +66,7 @@ class GripTrial {
   std::optional<HeldBody> body_;
   std::string trouble_;  // why there is none
   bool is_articulated_ = true;
-  core_f64::Vec3 watched_{};  // a place of the vessel: its centre of mass at the release
+  core_f64::Vec3 watched_{};  // a place of the vessel: its center of mass at the release
   long steps_ = 0;
 };
 

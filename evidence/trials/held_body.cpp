@@ -11,7 +11,7 @@ namespace {
 
 using core_f64::Vec3;
 
-// A contact closes within 5 ms and without ringing; it is soft over a tenth of a millimetre, below which a resting one would
+// A contact closes within 5 ms and without ringing; it is soft over a tenth of a millimeter, below which a resting one would
 // flicker.
 const char* const CONTACT = "condim=\"4\" solref=\"0.005 1\" solimp=\"0.5 0.99 0.0001\"";
 

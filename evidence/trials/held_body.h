@@ -62,7 +62,7 @@ class HeldBody {
   void reset();
   void set_load(const RigidLoad& load);
   void set_friction(double friction, double torsion);
-  // A force at the centre of mass from now on, N.
+  // A force at the center of mass from now on, N.
   void push(const core_f64::Vec3& force) { push_ = force; }
   // Torques of the joints, or forces of the slides, beside what their springs do.
   void drive(std::span<const double> drives) { drives_.assign(drives.begin(), drives.end()); }

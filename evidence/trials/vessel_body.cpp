@@ -181,7 +181,7 @@ struct SliceSum {
     along -= part.along;
     across -= part.across;
   }
-  // As a body of a mass at a centre.
+  // As a body of a mass at a center.
   RigidLoad weighing(double mass, const Triple& center) const {
     if (!(volume > 0)) return {mass, center, {}};
     const double density = mass / volume, height = first / volume;
@@ -214,7 +214,7 @@ struct Moments {
     second[1][1] -= part.across - part.along / 2;
     second[2][2] -= part.along / 2;
   }
-  // As a body of a mass, whose own centre comes to lie at `center`.
+  // As a body of a mass, whose own center comes to lie at `center`.
   RigidLoad weighing(double mass, const Triple& center) const {
     RigidLoad load{mass, center, {}};
     if (!(volume > 0)) return load;

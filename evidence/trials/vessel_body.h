@@ -36,7 +36,7 @@ struct ConvexPiece {
 // a mesh with hollows.
 std::vector<ConvexPiece> convex_pieces(const VesselData& vessel);
 
-// Mass, centre and inertia about that centre, of axes along the frame's. Vessel frame, kg, m, kg m2.
+// Mass, center and inertia about that center, of axes along the frame's. Vessel frame, kg, m, kg m2.
 struct RigidLoad {
   double mass = 0;
   Triple center{};
@@ -49,8 +49,8 @@ class VesselLoad {
   // `pour` is the horizontal direction towards which the vessel tilts. Both must outlive this.
   VesselLoad(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const Triple& pour);
 
-  // Mass and centre are those of kernel 6. The inertia of the wall is that of its slices; that of the liquid is of the upright
-  // vessel with as much in it, about its own centre. `mass`, where it is a number, is that of the whole instead, with all else in
+  // Mass and center are those of kernel 6. The inertia of the wall is that of its slices; that of the liquid is of the upright
+  // vessel with as much in it, about its own center. `mass`, where it is a number, is that of the whole instead, with all else in
   // proportion.
   RigidLoad at(double fill, double tilt, double mass) const;
 

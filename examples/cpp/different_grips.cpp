@@ -31,7 +31,7 @@ int main() {
   const auto evaluator = make_core_evaluator(scene);
   constexpr double APART = 25e-3;  // m
   DifferentGrips list(3, APART);
-  // a grip each millimetre up the glass: nearly all are twins of the one before
+  // a grip each millimeter up the glass: nearly all are twins of the one before
   for (std::uint64_t number = 0; number < 60 && !list.is_full(); ++number) {
     list.offer({0, number}, evaluator->posed(0, at_height(number)));
   }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # A hand of 24 joints and a wrist: one Spatial for each, by its OpenXR name, in this node's own frame. Godot's axes are those of
-# wholehand (right-handed, +y up, metres), so that a pose is taken as it is. Balls and cylinders stand for skin: put your own meshes
+# wholehand (right-handed, +y up, meters), so that a pose is taken as it is. Balls and cylinders stand for skin: put your own meshes
 # below the nodes instead.
 extends Spatial
 

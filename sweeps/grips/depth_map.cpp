@@ -52,7 +52,7 @@ double DepthMap::least_near(const Flat& p) const {
   return least;
 }
 
-// Pixels whose middle lies in the triangle, its sides and a hair more included, so that neighbours leave no gap. Shares of b and c and the depth
+// Pixels whose middle lies in the triangle, its sides and a hair more included, so that neighbors leave no gap. Shares of b and c and the depth
 // are linear: on a row of pixels the shares of all three corners are at least 0 from one place to another.
 void DepthMap::draw(const Triple& a, const Triple& b, const Triple& c) {
   const auto place = [&](const Triple& p) { return Flat{(p[0] - low_[0]) / pixel_ - 0.5, (p[1] - low_[1]) / pixel_ - 0.5}; };

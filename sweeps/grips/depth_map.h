@@ -24,7 +24,7 @@ class DepthMap {
   double pixel() const { return pixel_; }
   // How near to the viewer the nearest triangle is at the middle of the pixel that holds p; NOTHING where there is none.
   double nearest_at(const Flat& p) const { return depth_at(column_of(p[0]), row_of(p[1])); }
-  // The least of that over the pixel and its eight neighbours: whether a line at a depth is hidden, though it may lie on what covers it.
+  // The least of that over the pixel and its eight neighbors: whether a line at a depth is hidden, though it may lie on what covers it.
   double least_near(const Flat& p) const;
   // Closed lines along pixels round all that is covered, to the left of each; corners only, the first not repeated.
   std::vector<std::vector<Flat>> borders() const;

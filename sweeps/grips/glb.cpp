@@ -31,7 +31,7 @@ constexpr std::array<int, 3> BONE_COLOR{222, 200, 178};
 constexpr std::array<int, 3> GLASS_COLOR{200, 225, 235};
 constexpr std::array<int, 3> LIQUID_COLOR{86, 180, 233};
 
-// glTF's colour factors are linear.
+// glTF's color factors are linear.
 double linear_light(int srgb) {
   const double value = srgb / 255.0;
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);

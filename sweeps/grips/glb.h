@@ -12,7 +12,7 @@ namespace wholehand {
 // How finely round things are cut: flat faces round the glass.
 constexpr int GLB_SEGMENTS = 64;
 
-// A ball's radius as a share of the joint's: its colour shows over the bones, whose flat faces are up to 1.2 % within the round.
+// A ball's radius as a share of the joint's: its color shows over the bones, whose flat faces are up to 1.2 % within the round.
 constexpr double GLB_BALL_SHARE = 1.03;
 
 // By what such a file is known as drawn here.
@@ -23,7 +23,7 @@ inline constexpr std::string_view GRIP_GLB_MARK = "\"generator\":\"wholehand";
 //     grip     the vessel frame; its `extras` are grip_json's object
 //       vessel, liquid   meshes; the liquid of the first of the report's states that has any, its level surface in the upright vessel
 //       wrist  and the 24 joints of the posed hand by hand_nodes' names, nested along each finger, each with its bone, the rounded
-//              cone through the radii of both joints; its child `<joint> contact` is a ball a little larger than the joint, coloured by
+//              cone through the radii of both joints; its child `<joint> contact` is a ball a little larger than the joint, colored by
 //              its state, which is in `extras`
 // While the animation runs the liquid is shown at its own tilt and hidden at others. Radii below 1.5 mm are drawn as 1.5 mm.
 // Throws Error: (usage) where the grip is not feasible, (failure) where the vessel's mesh has not been read.

@@ -36,7 +36,7 @@ Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t ves
   hand_ = core_f64::load_strength(scene, result);
 }
 
-// The weight at the centre of mass. Up in the vessel frame at a tilt t: cos t y - sin t n.
+// The weight at the center of mass. Up in the vessel frame at a tilt t: cos t y - sin t n.
 Wrench Holding::load(const StateResult& state, double tilt) const {
   const Vec3 up = core_f64::up_direction(to_vec3<double>(pour_), std::sin(tilt), std::cos(tilt));
   return core_f64::wrench_at(to_vec3<double>(state.center_of_mass), -state.mass * scene_.gravity * up);

@@ -23,7 +23,7 @@ struct HeldContact {
 
 // One state. The least effort lies in [low, effort]; both are infinite where no force of the hand holds the vessel. `forces` of its
 // contacts attain `effort`; all numbers are NaN where `until_poured` leaves the state out. Where the effort is infinite the forces
-// are zero, and `escape` is how the vessel gets away: velocity of the centre of mass (m/s) and angular velocity (rad/s), scaled
+// are zero, and `escape` is how the vessel gets away: velocity of the center of mass (m/s) and angular velocity (rad/s), scaled
 // together.
 struct StateHold {
   double effort = 0, low = 0;

@@ -122,7 +122,7 @@ GripScore score_of(const GripPlanes& planes, const Scene& scene) {
   return score;
 }
 
-// Planes hold what depends on the grip; mass and centre of mass of a state are the core's for the same liquid.
+// Planes hold what depends on the grip; mass and center of mass of a state are the core's for the same liquid.
 GripState state_of(const GripPlanes& planes, const Evaluator& core, const Scene& scene, std::size_t vessel, const GripInput& grip,
                    const GripResult& result, std::size_t fill, std::size_t tilt) {
   const std::size_t place = fill * scene.tilts.size() + tilt;

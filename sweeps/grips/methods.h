@@ -25,7 +25,7 @@ struct GripState {
 struct GripHold {
   double worst = 0, worst_fill = 0, worst_tilt = 0;  // a state of the largest effort: fraction, rad
   double tips_worst = 0;
-  double push = 0;  // N: upright and fullest, what may push at the centre of mass along each of +-x, +-y, +-z beside the weight
+  double push = 0;  // N: upright and fullest, what may push at the center of mass along each of +-x, +-y, +-z beside the weight
   double friction_needed = 0;  // the least mu that holds all states; infinite: none up to 10
   int states = 0, skipped = 0, pivots = 0;
 };

@@ -30,7 +30,7 @@ constexpr std::size_t MOST_FACETS = 150'000;
 WrenchQuality wrench_quality(std::span<const core_f64::ContactPoint> contacts, const ContactMaterial& material,
                              const core_f64::Vec3& center, double scale, std::size_t most_facets = MOST_FACETS);
 
-// The quality of a grip: about the centre of mass of the empty glass, in units of the distance of its farthest point from there.
+// The quality of a grip: about the center of mass of the empty glass, in units of the distance of its farthest point from there.
 struct GripQuality {
   WrenchQuality wrenches;
   double scale = 0;  // m

@@ -44,7 +44,7 @@ void add_holding(GripReport& report, const Scene& scene, std::size_t vessel, con
 void add_quality(GripReport& report, const Scene& scene, std::size_t vessel);
 
 // One JSON object in one line, SI units, points in the vessel frame; docs/grip.md names the fields. What does not exist up to the
-// reason of an infeasible grip is absent; an infinite hold force, the centre of no liquid and the forces of a state that is left
+// reason of an infeasible grip is absent; an infinite hold force, the center of no liquid and the forces of a state that is left
 // out are null. Doubles read back as they were.
 std::string grip_json(const GripReport& report);
 

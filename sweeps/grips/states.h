@@ -14,7 +14,7 @@ namespace wholehand {
 
 enum class PointState { touching, projected, free };
 
-// A state's name and its colour.
+// A state's name and its color.
 struct PointStyle {
   const char* name;
   Rgb color;

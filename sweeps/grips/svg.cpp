@@ -108,7 +108,7 @@ std::vector<FingerRun> finger_runs(const Drawing& drawing, const DrawnView& view
   return runs;
 }
 
-// Shape shows the state as well as colour does: a disc, a diamond, a small ring.
+// Shape shows the state as well as color does: a disc, a diamond, a small ring.
 std::string marker(const Flat& p, PointState state, double font) {
   const double size = 0.42 * font;
   const char* name = POINT_STYLES[static_cast<std::size_t>(state)].name;

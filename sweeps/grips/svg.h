@@ -12,8 +12,8 @@ namespace wholehand {
 // By what such a drawing is known as made here.
 inline constexpr std::string_view GRIP_SVG_MARK = "<title id=\"title\">Grip of ";
 
-// The text of an SVG of at most 180 mm by 250 mm, one unit of its coordinates a millimetre of the vessel; black on white, contact points in colours that
-// colour-blind readers distinguish and in shapes that do without colour. Third-angle projection: the front view from the side of the hand,
+// The text of an SVG of at most 180 mm by 250 mm, one unit of its coordinates a millimeter of the vessel; black on white, contact points in colors that
+// color-blind readers distinguish and in shapes that do without color. Third-angle projection: the front view from the side of the hand,
 // the thumb-index line across; the top view above it; the side view beside it, from the right. Posed joints with their skin, seen through
 // the glass where they are behind it. With a title and a description for screen readers.
 // Where the report has holds, arrows show the contact forces of the hardest state, unless no force holds it (sweeps/grips/forces.h).

@@ -21,11 +21,11 @@ std::string known(const GripReport& report, double value, int digits) {
   return fixed_text(value, std::max(0, digits - OF_LENGTHS + known_digits(1e3 * report.length_error, OF_LENGTHS)));
 }
 
-std::string millimetres(const GripReport& report, const Triple& p) {
+std::string millimeters(const GripReport& report, const Triple& p) {
   return fmt::format("{:>9} {:>8} {:>8}", known(report, p[0] * 1e3, 3), known(report, p[1] * 1e3, 3), known(report, p[2] * 1e3, 3));
 }
 
-std::string millimetres(const GripReport& report, double length) { return known(report, length * 1e3, 3) + " mm"; }
+std::string millimeters(const GripReport& report, double length) { return known(report, length * 1e3, 3) + " mm"; }
 
 const char* yes_no(bool value) { return value ? "yes" : "no"; }
 
@@ -54,23 +54,23 @@ void write_closing(std::string& out, const GripReport& report) {
   append_formatted(out, "  feasible       {}{}\n", yes_no(is_feasible),
                    is_feasible ? "" : fmt::format(": {}", REASON_NAMES[static_cast<std::size_t>(r.reason)]));
   if (!is_feasible && r.reason < Reason::too_wide) return;
-  append_formatted(out, "  gap            {}\n", millimetres(report, r.gap));
-  append_formatted(out, "  midpoint      {} mm\n", millimetres(report, r.midpoint));
+  append_formatted(out, "  gap            {}\n", millimeters(report, r.gap));
+  append_formatted(out, "  midpoint      {} mm\n", millimeters(report, r.midpoint));
   if (!is_feasible) return;
   append_formatted(out, "  closure        {}\n", known(report, r.closure, 6));
   append_formatted(out, "  contact angles thumb {}, index {} deg, antipodal: {}{}\n",
                    known(report, degrees(r.contact_angles[0]), 3), known(report, degrees(r.contact_angles[1]), 3),
                    yes_no(r.antipodal), r.grazing ? ", grazing" : "");
   append_formatted(out, "  plausible      {}: phalanges {} deep, palm {}{}\n", yes_no(r.plausible),
-                   millimetres(report, r.phalanx_depth), millimetres(report, r.palm_depth),
+                   millimeters(report, r.phalanx_depth), millimeters(report, r.palm_depth),
                    fmt::format("{}{}", r.through_table ? "; the hand goes through the table" : "",
                                r.beyond_wrist ? "; no arm reaches it within the ranges of its wrist" : ""));
   if (!std::isnan(r.table_depth)) {
-    append_formatted(out, "  table          {} {} the table and its clearance\n", millimetres(report, std::abs(r.table_depth)),
+    append_formatted(out, "  table          {} {} the table and its clearance\n", millimeters(report, std::abs(r.table_depth)),
                      r.through_table ? "below" : "above");
   }
   if (!std::isnan(r.self_depth)) {
-    append_formatted(out, "  fingers        {} {}{}\n", millimetres(report, std::abs(r.self_depth)),
+    append_formatted(out, "  fingers        {} {}{}\n", millimeters(report, std::abs(r.self_depth)),
                      r.self_depth > 0 ? "in each other" : "apart from each other at least",
                      r.self_overlap ? ": deeper than the depth limit" : "");
   }
@@ -81,7 +81,7 @@ void write_closing(std::string& out, const GripReport& report) {
                      wrist_motion(report, r.wrist_angles[2], "pronation", "supination"), known(report, 100 * r.wrist_share, 3),
                      r.beyond_wrist ? ", beyond it" : "");
   }
-  append_formatted(out, "  bone stretch   {}\n", millimetres(report, r.bone_stretch));
+  append_formatted(out, "  bone stretch   {}\n", millimeters(report, r.bone_stretch));
   append_formatted(out, "  fingers used   {}\n", finger_list(r.used_mask));
   if ((r.status & STATUS_CONTACT_UNDECIDED) != 0)
     append_formatted(
@@ -103,8 +103,8 @@ void write_joints(std::string& out, const GripReport& report) {
                        : has(r.finger_mask) ? ", projected: finger"
                        : has(r.inner_mask)  ? ", projected: inner"
                                             : "";
-    append_formatted(out, "  {:<13}{}{}{}{:>11}  {}{}\n", JOINT_NAMES[j].paper, millimetres(report, r.joints[j]),
-                     millimetres(report, r.posed[j]), millimetres(report, r.proxies[j]), known(report, r.separation[j] * 1e3, 4),
+    append_formatted(out, "  {:<13}{}{}{}{:>11}  {}{}\n", JOINT_NAMES[j].paper, millimeters(report, r.joints[j]),
+                     millimeters(report, r.posed[j]), millimeters(report, r.proxies[j]), known(report, r.separation[j] * 1e3, 4),
                      has(r.touch_mask) ? "touches" : "-", role);
   }
 }
@@ -127,7 +127,7 @@ void write_states(std::string& out, const GripReport& report) {
   for (const GripState& s : report.answer.states) {
     append_formatted(out, "  {:>5}{:>7} {:>8} {:>8} {:>8} {}", fill_number(report, s.fill), plain_text(degrees(s.tilt), 5),
                      known(report, s.liquid.volume * 1e6, 3), known(report, s.liquid.poured * 1e6, 3),
-                     known(report, s.state.mass * 1e3, 3), millimetres(report, s.state.center_of_mass));
+                     known(report, s.state.mass * 1e3, 3), millimeters(report, s.state.center_of_mass));
     if (!s.counts) {
       append_formatted(out, "  left out by until_poured\n");
       continue;
@@ -180,7 +180,7 @@ void write_contacts(std::string& out, const GripReport& report) {
   append_formatted(out, "  {:<18}{:^27} {:^27}{:>9}\n", "presses at", "place, mm", "force, N", "mN m");
   for (const HeldContact& contact : hold.contacts) {
     if (contact.force == Triple{}) continue;
-    append_formatted(out, "  {:<18}{} {:>9} {:>8} {:>8} {:>8}\n", contact_name(contact), millimetres(report, contact.point),
+    append_formatted(out, "  {:<18}{} {:>9} {:>8} {:>8} {:>8}\n", contact_name(contact), millimeters(report, contact.point),
                      known(report, contact.force[0], 3), known(report, contact.force[1], 3), known(report, contact.force[2], 3),
                      known(report, contact.torsion * 1e3, 3));
   }
@@ -198,7 +198,7 @@ void write_hold(std::string& out, const GripReport& report) {
                    std::isfinite(hold.friction_needed)
                        ? fmt::format("{:.3f} is the least that holds all states", hold.friction_needed)
                        : std::string("none up to 10 holds all states"));
-  append_formatted(out, "  push           {} N at the centre of mass, upright and fullest, in the worst of six directions\n",
+  append_formatted(out, "  push           {} N at the center of mass, upright and fullest, in the worst of six directions\n",
                    fixed_text(hold.push, 2));
 }
 
@@ -207,7 +207,7 @@ void write_quality(std::string& out, const GripReport& report) {
   const GripQuality& quality = *report.quality;
   const auto& [epsilon, volume] = quality.wrenches;
   append_formatted(out, "\n  epsilon        {:.4g} to {:.4g}, moments over {} about {} mm\n", epsilon[0], epsilon[1],
-                   millimetres(report, quality.scale), millimetres(report, quality.center));
+                   millimeters(report, quality.scale), millimeters(report, quality.center));
   append_formatted(out, "  wrench volume  {:.4g} to {:.4g}\n", volume[0], volume[1]);
 }
 

@@ -17,7 +17,7 @@ using Coordinates = std::array<double, REFINED_COORDINATES>;
 
 constexpr double SCORE_OF_NONE = -1;  // the score of one that is not eligible
 
-std::pair<double, double> half_way_to_neighbours(std::vector<double> values, double value) {
+std::pair<double, double> half_way_to_neighbors(std::vector<double> values, double value) {
   std::sort(values.begin(), values.end());
   const auto place = std::lower_bound(values.begin(), values.end(), value);
   const double below = place == values.begin() ? value : *(place - 1);
@@ -82,7 +82,7 @@ RefineBox refine_box(const Plan& plan, std::size_t vessel, std::uint64_t grip) {
       const double half = 0.5 * (axis.high - axis.low) / steps;
       ends = {std::max(axis.low, value - half), std::min(axis.high, value + half)};
     } else {
-      ends = half_way_to_neighbours(axis.values, value);
+      ends = half_way_to_neighbors(axis.values, value);
     }
     const auto meters = [&](double end) { return REFINED_PLACES[k] == PLACE_HEIGHT ? plan.height(vessel, end) : end; };
     box.low[k] = meters(ends.first);

@@ -25,8 +25,8 @@ constexpr double SMALLEST_REFINE_STEP = 1.0 / 16;  // of the way to an end of th
 std::array<double, REFINED_COORDINATES> coordinates_of(const GripInput& grip);
 GripInput with_coordinates(const GripInput& grip, const std::array<double, REFINED_COORDINATES>& coordinates);
 
-// Between what each coordinate of a grip may move: half-way to the neighbouring values of its axis, m and rad. An axis with one
-// value stays, and so does azimuth where it changes nothing. No grip leaves the span of its axis. Sobol points have no neighbours
+// Between what each coordinate of a grip may move: half-way to the neighboring values of its axis, m and rad. An axis with one
+// value stays, and so does azimuth where it changes nothing. No grip leaves the span of its axis. Sobol points have no neighbors
 // on a range; there a step is its length / count^(1/d), with d ranges.
 struct RefineBox {
   std::array<double, REFINED_COORDINATES> low{}, high{};

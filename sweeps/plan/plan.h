@@ -19,7 +19,7 @@ constexpr double LARGEST_SWEEP = 1e11;        // grips of all vessels that one s
 constexpr std::size_t MOST_HAND_SCALES = 64;  // with a list of best grips each; more are a range, and have one list
 
 // Places of the axes, in the order in which grips are numbered and the result file stores them, the slowest first. Height is the fastest:
-// a device evaluates neighbours together, and of all axes height changes the least in how a finger moves.
+// a device evaluates neighbors together, and of all axes height changes the least in how a finger moves.
 enum PlanPlace : int { PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_ROLL, PLACE_OFFSET, PLACE_HAND_SCALE, PLACE_HEIGHT };
 
 // What the grips have along an axis: one value; those of a list; the equal steps of a range; or, where Sobol points fill a range, any value
@@ -59,7 +59,7 @@ void check_sweep_size(const Scene& scene, const SweepSize& size, double free_byt
 // constant, so that opening a further axis leaves the values of the others as they were. A range is filled continuously, of a list
 // equal parts of (0, 1) pick the values, a number stays. Every vessel gets the same points.
 //
-// Azimuth is left out of a grid where it changes nothing: every vessel is a body of revolution whose centre of mass lies on its
+// Azimuth is left out of a grid where it changes nothing: every vessel is a body of revolution whose center of mass lies on its
 // axis, and no vector of the vessel frame is kept. Then the grips at the first azimuth stand for those at all `copies()` azimuths,
 // and the result file repeats them.
 class Plan {

@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// Cells along one axis of a heat map. A grid's values have a cell each, bounded halfway to their neighbours (more than LARGEST_MAP
+// Cells along one axis of a heat map. A grid's values have a cell each, bounded halfway to their neighbors (more than LARGEST_MAP
 // values share cells evenly); a Sobol range is cut into so many that a cell of two such axes has 16 points on average.
 class MapAxis {
  public:

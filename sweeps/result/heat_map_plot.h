@@ -23,10 +23,10 @@ struct HeatMapPicture {
   std::string hollow = "only implausible grips";  // what a cell of feasible grips without a score has
 };
 
-// The pictures drawn, with one colour scale for all.
+// The pictures drawn, with one color scale for all.
 std::vector<PictureFile> heat_map_files(const std::vector<HeatMapPicture>& pictures);
 
-// Colours of scores from `low` to `high`, to whole twentieths.
+// Colors of scores from `low` to `high`, to whole twentieths.
 ColorScale score_scale(double low, double high);
 
 // The pictures of a sweep, one per vessel, with titles that say what each cell is the largest of. Vessels whose names make the same

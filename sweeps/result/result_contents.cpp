@@ -230,7 +230,7 @@ class SweepDefinition : ResultDefinition {
             per_vessel([&](std::size_t v, auto& out) { out.push_back(facts[v].capacity); }));
     doubles("empty_mass", {"vessel"}, "kg", "mass of the empty vessel",
             per_vessel([&](std::size_t v, auto& out) { out.push_back(facts[v].empty_mass); }));
-    doubles("empty_center_of_mass", {"vessel", "xyz"}, "m", "centre of mass of the empty vessel, vessel frame",
+    doubles("empty_center_of_mass", {"vessel", "xyz"}, "m", "center of mass of the empty vessel, vessel frame",
             per_vessel([&](std::size_t v, auto& out) {
               out.insert(out.end(), facts[v].empty_center_of_mass.begin(), facts[v].empty_center_of_mass.end());
             }));
@@ -247,9 +247,9 @@ class SweepDefinition : ResultDefinition {
     };
     liquid("liquid_volume", "m3", "volume of the liquid left", &LiquidResult::volume);
     liquid("liquid_mass", "kg", "mass of the liquid left", &LiquidResult::mass);
-    liquid("liquid_lean", "m", "centre of mass of the liquid along the horizontal direction of tilting, vessel frame",
+    liquid("liquid_lean", "m", "center of mass of the liquid along the horizontal direction of tilting, vessel frame",
            &LiquidResult::lean);
-    liquid("liquid_height", "m", "centre of mass of the liquid along the vessel's axis", &LiquidResult::height);
+    liquid("liquid_height", "m", "center of mass of the liquid along the vessel's axis", &LiquidResult::height);
     liquid("poured_volume", "m3", "volume of the liquid poured on the way to the tilt", &LiquidResult::poured);
   }
 

@@ -34,7 +34,7 @@ struct Workload {
 // The default scene's, up to each step. Throws Error where the default scene lacks what a step needs.
 std::vector<Workload> roofline_workloads();
 
-// Grips of each vessel that everything is measured on: groups of neighbours, as a device takes them, spread over the plan.
+// Grips of each vessel that everything is measured on: groups of neighbors, as a device takes them, spread over the plan.
 constexpr std::size_t SAMPLE = 24 * GROUP_SIZE;
 std::vector<GripInput> sample_of(const Workload& workload, std::size_t vessel);
 

@@ -95,7 +95,7 @@ TEST(Body, OverlapsAreThoseOfASearch) {
   }
 }
 
-// Rounded cones as slim as fingers: at most the largest overlap of all pairs of spheres and at least that less a millimetre, and no other
+// Rounded cones as slim as fingers: at most the largest overlap of all pairs of spheres and at least that less a millimeter, and no other
 // where bones that are parallel turn by a rounding.
 TEST(Body, OverlapsOfTaperedBonesAreNearTheLargest) {
   Random random(21);
@@ -298,7 +298,7 @@ TEST(Body, SelfDepthIsTheLargestOverlapOfTwoDigits) {
   EXPECT_LT(widest, 0.05e-3);
 }
 
-// Skipped pairs change nothing: the depth is the largest overlap of all pairs, or of two spheres at the same joint of neighbouring fingers.
+// Skipped pairs change nothing: the depth is the largest overlap of all pairs, or of two spheres at the same joint of neighboring fingers.
 TEST(Body, SelfDepthLeavesOutNoPairOfBones) {
   int from_joints = 0, grips = 0;
   each_grip(

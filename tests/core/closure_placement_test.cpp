@@ -42,7 +42,7 @@ void expect_placed(const VesselData& vessel, const HandData& hand, int least_fea
     for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
       const Long3 p = in_hand[j] - middle;
       const Long3 placed = widened(result.midpoint) + dot(p, e1) * f1 + dot(p, e2) * f2 + dot(p, e3) * f3;
-      // 1e-13 m: rounding of a frame that is 1 / (1 - 0.95^2)^(1/2) ill-conditioned at most, over hands of up to a metre
+      // 1e-13 m: rounding of a frame that is 1 / (1 - 0.95^2)^(1/2) ill-conditioned at most, over hands of up to a meter
       ASSERT_LT(length(placed - widened(result.joints[j])), 1e-13 * std::max(1.0, hand.scale)) << vessel.name << ", joint " << j;
     }
   }

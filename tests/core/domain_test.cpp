@@ -69,8 +69,8 @@ TEST(Domain, WarningsNameTheLimit) {
 // The inner wall of a shell is touched, that of a solid vessel is not.
 TEST(Domain, TheInnerWallOfAShellCounts) {
   VesselData vessel = vessel_of("bowl", {line_to(35, 0), line_to(35, 100), line_to(0, 100)}, 0);
-  const double centre = std::sqrt(17e3 * 17e3 - 48.0 * 48.0);  // an arc of 17 m over 96 mm of height
-  vessel.inner = {line_to(0, 4), line_to(30, 4), arc_to(30, 100, 30 - centre, 52)};
+  const double center = std::sqrt(17e3 * 17e3 - 48.0 * 48.0);  // an arc of 17 m over 96 mm of height
+  vessel.inner = {line_to(0, 4), line_to(30, 4), arc_to(30, 100, 30 - center, 52)};
   vessel.wall = 4e-3;
   EXPECT_TRUE(domain_warnings(tilted({vessel}), Precision::single).empty());
   vessel.surface = Surface::shell;

@@ -76,7 +76,7 @@ void expect_effort(const std::vector<ContactPoint>& contacts, const HandStrength
 
 Wrench weight_at(Vec3 center) { return wrench_at(center, {0, -WEIGHT, 0}); }
 
-// The centre of mass in the plane of symmetry: the two-tip formula of kernel 7, whose normals lie along the line of the tips.
+// The center of mass in the plane of symmetry: the two-tip formula of kernel 7, whose normals lie along the line of the tips.
 TEST(Effort, OfTwoTipsIsTheHoldForce) {
   for (const double below : {0.0, 0.005, 0.02, 0.05})
     for (const double tilt : {0.0, 20.0, 45.0, 90.0, 160.0}) {

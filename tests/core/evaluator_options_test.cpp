@@ -83,7 +83,7 @@ TEST(EvaluatorOptions, DeviceTakesThemAsTheCoreDoes) {
         continue;
       }
       const double closures[] = {device.real(fields.plane[FIELD_CLOSURE], i), core.real(fields.plane[FIELD_CLOSURE], i)};
-      // roundings of a gap of 0.1 m, by a slope of 10 closures a metre or so; within a loose tolerance a step may end either side
+      // roundings of a gap of 0.1 m, by a slope of 10 closures a meter or so; within a loose tolerance a step may end either side
       if (!std::isnan(closures[0])) differ += std::abs(closures[0] - closures[1]) > 1e-5 ? 1 : 0;
     }
     EXPECT_LE(differ, static_cast<int>(grips.size()) / 50) << k;

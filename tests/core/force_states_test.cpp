@@ -181,7 +181,7 @@ TEST(Force, WithoutLiquidTheReferenceIsThatOfTheEmptyGlass) {
   }
 }
 
-TEST(Force, GripAtTheCenterOfMassHasAFiveMillimetreReference) {
+TEST(Force, GripAtTheCenterOfMassHasAFiveMillimeterReference) {
   Scene scene = scene_of({beaker1()});
   scene.vessels[0].mass = 0.2;
   scene.vessels[0].center_of_mass = {0, 50e-3, 0};
@@ -288,7 +288,7 @@ TEST(Force, LeftHandIsTheRightHandInTheMirroredScene) {
     for (const double tilt : {0.0, 0.5, 1.4}) {
       const LiquidResult liquid = left->liquid(0, 0.8, tilt);
       const StateResult ls = left->state(0, grip, l, liquid, tilt), rs = right->state(0, mirrored_grip(grip), r, liquid, tilt);
-      expect_mirrored(ls.center_of_mass, rs.center_of_mass, "centre of mass");
+      expect_mirrored(ls.center_of_mass, rs.center_of_mass, "center of mass");
       EXPECT_NEAR(ls.torque, rs.torque, 1e-8);  // N m, N: weights of 6 N times 1e-9 m; gamma of 5 mm divides the last
       EXPECT_NEAR(ls.exact_torque, rs.exact_torque, 1e-8);
       EXPECT_NEAR(ls.feedback_force, rs.feedback_force, 1e-6);

@@ -75,7 +75,7 @@ TEST(Force, PaperTorqueByHand) {
 }
 
 TEST(Force, ExactTorqueByHand) {
-  // the centre 30 mm above and 40 mm towards the pour: 0.5 x 9.80665 x (0.03 sin t + 0.04 cos t)
+  // the center 30 mm above and 40 mm towards the pour: 0.5 x 9.80665 x (0.03 sin t + 0.04 cos t)
   const Vec3 n(0, 0, -1), arm(0, 0.03, -0.04);
   const auto torque = [&](double degree) {
     return core_f64::exact_pendulum_torque(0.5, G, arm, n, std::sin(radians(degree)), std::cos(radians(degree)));
@@ -100,7 +100,7 @@ TEST(Force, ExactTorqueIsMinusThePotentialsDerivativeByTheTilt) {
 TEST(Force, TorqueIsPositiveWhereTheVesselTopplesFurther) {
   const Vec3 n(0, 0, -1);
   const double s = std::sin(0.3), c = std::cos(0.3);
-  EXPECT_GT(core_f64::exact_pendulum_torque(0.3, G, {0, 0.05, 0}, n, s, c), 0);   // held under the centre of mass: topples
+  EXPECT_GT(core_f64::exact_pendulum_torque(0.3, G, {0, 0.05, 0}, n, s, c), 0);   // held under the center of mass: topples
   EXPECT_LT(core_f64::exact_pendulum_torque(0.3, G, {0, -0.05, 0}, n, s, c), 0);  // held above: hangs and pulls back
   EXPECT_GT(core_f64::exact_pendulum_torque(0.3, G, {0, 0, -0.01}, n, s, c), 0);  // liquid that has run towards the pour
 }
@@ -130,7 +130,7 @@ TEST(Force, NormalForceIsTheBaseWithoutAReference) {
   EXPECT_EQ(core_f64::normal_force(0.8, 3, 0, 0), 0.8);
 }
 
-TEST(Force, GripReferenceTakesNoPivotShorterThanFiveMillimetres) {
+TEST(Force, GripReferenceTakesNoPivotShorterThanFiveMillimeters) {
   EXPECT_DOUBLE_EQ(core_f64::grip_reference(0.5, G, 0.04), 0.196133);
   EXPECT_DOUBLE_EQ(core_f64::grip_reference(0.5, G, 0.005), 0.5 * G * 0.005);
   EXPECT_DOUBLE_EQ(core_f64::grip_reference(0.5, G, 0.004), 0.5 * G * 0.005);

@@ -132,9 +132,9 @@ TEST(Hand, FramesAreOrthonormal) {
   }
 }
 
-TEST(Hand, GapOpensTo128Millimetres) {
+TEST(Hand, GapOpensTo128Millimeters) {
   const core_f64::Hand hand = ready_hand(paper_hand());
-  EXPECT_NEAR(core_f64::gap_at(hand, 0), 0.128, 1e-3);  // 1e-3 m: the specification gives whole millimetres
+  EXPECT_NEAR(core_f64::gap_at(hand, 0), 0.128, 1e-3);  // 1e-3 m: the specification gives whole millimeters
   EXPECT_EQ(hand.gap_open, core_f64::gap_at(hand, 0));
   EXPECT_EQ(hand.gap_closed, core_f64::gap_at(hand, 1));
 }

@@ -79,8 +79,8 @@ TEST(HeldForces, AreThoseOfASweepsState) {
   }
 }
 
-// Two masses: the centre lies between them as they divide the whole.
-TEST(LoadWith, IsTheMassWeightedCentre) {
+// Two masses: the center lies between them as they divide the whole.
+TEST(LoadWith, IsTheMassWeightedCenter) {
   core_f64::Vessel vessel;
   vessel.mass = 0.3;
   vessel.center_of_mass = Vec3(0.01, 0.05, -0.02);

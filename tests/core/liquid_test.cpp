@@ -198,7 +198,7 @@ TEST(Liquid, UprightCylinderStandsAtVolumeOverArea) {
 }
 
 TEST(Liquid, UprightSphereIsACap) {
-  // R^2 pi h^2 - pi h^3 / 3 under the equator of the flask's body, h above its floor; centre by Archimedes' ratio
+  // R^2 pi h^2 - pi h^3 / 3 under the equator of the flask's body, h above its floor; center by Archimedes' ratio
   const Wide R = 41e-3L, h = 30e-3L;
   const Wide volume = PI_L * h * h * (3 * R - h) / 3, height = 1.5e-3L + h * (8 * R - 3 * h) / (4 * (3 * R - h));
   const LiquidState state = liquid_at_rest(cavity_samples()[1].vessel, double(volume), 0);

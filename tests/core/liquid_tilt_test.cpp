@@ -107,7 +107,7 @@ TEST(Liquid, LiquidInASphereIsTheSameAtEveryTilt) {
   // a cap of depth h that stays clear of the neck and under the lip up to the tilt beside it
   for (const auto& [h, last] : {std::pair<Wide, int>{5e-3L, 100}, {10e-3L, 95}, {20e-3L, 90}}) {
     const Wide R = 41e-3L, volume = PI_L * h * h * (3 * R - h) / 3;
-    const Wide under = R - h * (8 * R - 3 * h) / (4 * (3 * R - h));  // of its centre under the sphere's
+    const Wide under = R - h * (8 * R - 3 * h) / (4 * (3 * R - h));  // of its center under the sphere's
     for (int whole = 0; whole <= last; whole += 5) {
       const double tilt = radians(whole);
       const LiquidState state = liquid_at_rest(cavity_samples()[1].vessel, double(volume), tilt);

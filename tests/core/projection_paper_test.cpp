@@ -167,7 +167,7 @@ TEST(Paper, PointOnItsAxisStays) {
   const core_f64::Vessel vessel = ready_vessel(beaker1());
   const Vec3 pivot{60e-3, 20e-3, 0};
   bool unsettled = false;
-  // beside a vertical axis 60 mm from the beaker's, its skin half a micrometre from the wall: a quarter turn would touch
+  // beside a vertical axis 60 mm from the beaker's, its skin half a micrometer from the wall: a quarter turn would touch
   for (const double off : {0.0, 0.9e-6, 1.1e-6}) {
     const Vec3 p{60e-3, 55e-3, off};
     const Vec3 placed = core_f64::project_point(vessel, p, 20e-3 - 0.5e-6, pivot, {{0, -1, 0}, true}, radians(90), unsettled);

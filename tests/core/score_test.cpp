@@ -36,7 +36,7 @@ TEST(Score, ContactsTermIsTheShareOfTwentyFour) {
   EXPECT_EQ(core_f64::contacts_term(24), 1);
 }
 
-TEST(Score, DepthTermFallsToZeroAtTenMillimetres) {
+TEST(Score, DepthTermFallsToZeroAtTenMillimeters) {
   EXPECT_EQ(core_f64::depth_term(0, 0), 1);
   EXPECT_DOUBLE_EQ(core_f64::depth_term(2e-3, 1e-3), 0.8);
   EXPECT_DOUBLE_EQ(core_f64::depth_term(1e-3, 4e-3), 0.6);  // the deeper of the two

@@ -47,7 +47,7 @@ TEST(Sdf, OfASphereHasNoSeamAtItsPoles) {
   const Vessel vessel = ready_vessel(beaker2());
   Random random(3);
   for (int i = 0; i < 1000; ++i) {
-    // below the centre the flask is its sphere
+    // below the center the flask is its sphere
     const Vec3 direction = glm::normalize(Vec3{random.uniform(-1, 1), random.uniform(-1, 0), random.uniform(-1, 1)});
     const double far = random.uniform(10e-3, 80e-3);
     EXPECT_NEAR(core_f64::signed_distance(vessel, Vec3{0, r, 0} + far * direction), far - r, 1e-15);  // a root and a square more
@@ -132,7 +132,7 @@ TEST(Sdf, GradientOnTheSurfaceIsTheOutwardNormal) {
           const Vec2 normal = piece.normal(t);
           int element = -1;
           const Vec2 g = core_f64::profile_gradient(vessel, piece.at(t) + off * normal, element);
-          // 1e-12: 1e-17 m of rounding over arcs of millimetres and elements of millimetres
+          // 1e-12: 1e-17 m of rounding over arcs of millimeters and elements of millimeters
           ASSERT_LT(glm::distance(g, normal), 1e-12) << data.name << ", off by " << off;
         }
       }
@@ -257,8 +257,8 @@ TEST(Sdf, DistanceToALine) {
 TEST(Sdf, DistanceToAnArc) {
   const Element right{{11, 0}, {6, 5}, {6, 0}, 5, 1};
   EXPECT_NEAR(core_f64::element_distance_squared(right, {9, 4}), 0, 1e-13);    // on it: 3, 4, 5; the root of 25 and back
-  EXPECT_NEAR(core_f64::element_distance_squared(right, {12, 8}), 25, 1e-13);  // twice as far from the centre
-  EXPECT_NEAR(core_f64::element_distance_squared(right, {6, 0}), 25, 1e-13);   // its centre
+  EXPECT_NEAR(core_f64::element_distance_squared(right, {12, 8}), 25, 1e-13);  // twice as far from the center
+  EXPECT_NEAR(core_f64::element_distance_squared(right, {6, 0}), 25, 1e-13);   // its center
   EXPECT_NEAR(core_f64::element_distance_squared(right, {7.5, 2}), 6.25, 1e-13);
   EXPECT_NEAR(core_f64::element_distance_squared(right, {11, -3}), 9, 1e-13);  // nearest its start
   EXPECT_NEAR(core_f64::element_distance_squared(right, {2, 5}), 16, 1e-13);   // nearest its end, not the circle's other side

@@ -282,7 +282,7 @@ static unsafe class UnityCheck {
         { "name", Refusal(() => scene.FindVessel("bucket")) },
         { "hold", Refusal(() => scene.Hold(vessel, low, 0, 0)) },
         { "later struct", Refusal(() => scene.Evaluate(vessel, later)) },
-        { "variable", Refusal(() => new Batch(scene, new[] { "colour" })) },
+        { "variable", Refusal(() => new Batch(scene, new[] { "color" })) },
         { "device", Refusal(() => new Batch(scene, new[] { "closure" }, "abacus")) },
         { "short array", Refusal(() => new Batch(scene, new[] { "joints" }).Run(vessel, new double[6], new double[71])) },
         { "gaps", Refusal(() => new Session(scene, 0.1, 0.1)) },

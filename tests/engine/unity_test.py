@@ -222,7 +222,7 @@ class Unity(EngineTest):
             "bad text": ("Input", "mine:2:9: scale = 99; allowed: 0.05 to 20"), "no text": ("Argument", "a pointer is null"),
             "vessel": ("Argument", "the scene has 1 vessels, and none of number 7"), "name": ("Input", "no vessel 'bucket'"),
             "hold": ("Input", "the grip is not feasible"), "later struct": ("Argument", "it is of a later header"),
-            "variable": ("Input", "no variable 'colour'"), "device": ("Input", "abacus"), "gaps": ("Input", "range of its gap"),
+            "variable": ("Input", "no variable 'color'"), "device": ("Input", "abacus"), "gaps": ("Input", "range of its gap"),
             "before": ("Argument", "no hand before the first step"), "not finite": ("Input", "the measurement is not finite"),
             "no rotation": ("Input", "not a rotation matrix"), "same tick": ("Input", "the tick 0 does not come after the tick 0"),
             "session's vessel": ("Argument", "none of number 9"),

@@ -45,7 +45,7 @@ std::string outline_of(Choices& choose, double size) {
     if (r == last_r && y == last_y) y += choose.keep(size * 0.1);
     if (choose.of(3) > 0) {
       text += fmt::format(", {{ line = [{:.17g}, {:.17g}] }}", r, y);
-    } else {  // its centre somewhere on the perpendicular through the middle
+    } else {  // its center somewhere on the perpendicular through the middle
       const double along = std::exp(8 * choose.share() - 4) * (choose.yes() ? 1 : -1);
       const double center_r = (r + last_r) / 2 + along * (last_y - y), center_y = (y + last_y) / 2 + along * (r - last_r);
       text += fmt::format(", {{ arc = [{:.17g}, {:.17g}], center = [{:.17g}, {:.17g}] }}", r, y, center_r, center_y);

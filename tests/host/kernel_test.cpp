@@ -82,7 +82,7 @@ TEST_F(HostKernel, MoreGroupsThanFitOneAxisGoAlongTheSecond) {
 TEST_F(HostKernel, StepsSeeWhatThoseBeforeWrote) {
   constexpr std::uint32_t COUNT = 5000;
   const Kernel first(device, test_shader("host_scale"), Constants{{0, 64u}, {1, 2.0f}}, "host_scale");
-  const Kernel second(device, test_shader("host_neighbours"), {}, "host_neighbours");
+  const Kernel second(device, test_shader("host_neighbors"), {}, "host_neighbors");
   std::vector<float> values(COUNT);
   std::iota(values.begin(), values.end(), 1.0f);
   const Buffer in = Buffer::of(device, values), scratch(device, 2 * COUNT * sizeof(float)), out(device, COUNT * sizeof(float));
@@ -152,7 +152,7 @@ TEST_F(HostKernel, MissingBindingIsAnError) {
 }
 
 TEST_F(HostKernel, BufferBeyondTheDevicesRangeIsAnError) {
-  const Kernel kernel(device, test_shader("host_neighbours"), {}, "host_neighbours");
+  const Kernel kernel(device, test_shader("host_neighbors"), {}, "host_neighbors");
   const Buffer small(device, 64), large(device, device.info().max_uniform_range + 16);
   Commands commands;
   commands.bind(0, small);

@@ -25,7 +25,7 @@ TEST(HostSpirv, InterfaceIsReadFromTheShader) {
   EXPECT_EQ(shader.group_size_id[0], 0u);
   EXPECT_TRUE(shader.float64);
 
-  const ShaderInterface other = read_interface(test_shader("host_neighbours"), "host_neighbours");
+  const ShaderInterface other = read_interface(test_shader("host_neighbors"), "host_neighbors");
   ASSERT_EQ(other.bindings.size(), 3u);
   EXPECT_EQ(other.bindings[2].kind, BindingKind::uniform);
   EXPECT_EQ(other.group_size, (std::array<std::uint32_t, 3>{64, 1, 1}));

@@ -285,7 +285,7 @@ TEST_P(HostStream, ErrorOfACallbackEndsTheRunAndNotTheStream) {
 TEST_P(HostStream, ChunkMayTakeSeveralKernels) {
   struct Chain : ScaleProgram {
     using ScaleProgram::ScaleProgram;
-    Kernel neighbours{on, test_shader("host_neighbours"), {}, "host_neighbours"};
+    Kernel neighbors{on, test_shader("host_neighbors"), {}, "host_neighbors"};
     Kernel counter{on, test_shader("host_count"), {}, "host_count"};
     Buffer weights = Buffer::of(on, std::vector<float>{0, 1, 0, 0});  // the next item's value
   };
@@ -313,7 +313,7 @@ TEST_P(HostStream, ChunkMayTakeSeveralKernels) {
     commands.bind(0, commands.bound(11));
     commands.bind(1, commands.bound(12));
     commands.bind(3, chain.weights);
-    commands.dispatch(chain.neighbours, groups_for(chain.on, chain.neighbours, count), count);
+    commands.dispatch(chain.neighbors, groups_for(chain.on, chain.neighbors, count), count);
   };
   std::uint64_t next = 0;
   request.sink = [&](const Chunk& chunk, const ChunkOutputs& outputs) {

@@ -235,7 +235,7 @@ TEST_F(ParityLeaf, FingersOnTheirWay) {
           .vec(turned.direction())
           .uniform(0.05, 0.6);
     }
-    // the room that a point has over how fast it goes: a few hundredths of a metre over 0.02 m a unit at least. Which element
+    // the room that a point has over how fast it goes: a few hundredths of a meter over 0.02 m a unit at least. Which element
     // bounds a step changes with the point: near those changes it may jump
     compare({.shader = "probe_projection",
              .probe = PROBE_WATCHED_PLACE,

@@ -159,7 +159,7 @@ TEST_F(ParityLeaf, LiquidInTheCavity) {
              .outputs = {{"volume", capacity}, {"lean", height}, {"height", height}},
              .stopped = {0},
              .stop_scale = capacity,
-             .sharp_share = 0.5},  // centres of a film of liquid are as good as unknown
+             .sharp_share = 0.5},  // centers of a film of liquid are as good as unknown
             states.table, scene, v);
   }
 }

@@ -27,7 +27,7 @@ constexpr double ONE_IN_A_THOUSAND = 1e-3;
 // On a lattice of 1/512 m with elements on every second of its points, whose circles have the radius 5 / 256 m and ends on 3-4-5
 // triangles, no coordinate has more than 6 bits: sums, products and squares are exact, in float and fused or not. Every decision
 // that takes no root is the same or wrong: horizontal elements, the ends' heights, the ends, the surface itself, the half's edge,
-// the centre.
+// the center.
 constexpr double UNIT = 1.0 / 256;
 constexpr int SIDE_UNITS = 16;
 constexpr double CENTER = 8 * UNIT;
@@ -66,8 +66,8 @@ std::vector<PreparedElement> plain_elements() {
   return elements;
 }
 
-// Whether q lies on the ray from an arc's centre through one of its ends: whether it is within the sector then hinges on a root,
-// which Vulkan gives to some units. At the centre there is nothing to round.
+// Whether q lies on the ray from an arc's center through one of its ends: whether it is within the sector then hinges on a root,
+// which Vulkan gives to some units. At the center there is nothing to round.
 bool on_edge_of_sector(const double* given) {
   const int code = static_cast<int>(given[7]), side = SIDE_OF(code);
   const double x = given[8] - given[4], y = given[9] - given[5], square = x * x + y * y;
@@ -178,7 +178,7 @@ TEST_F(ParityLeaf, Proxy) {
   }
 }
 
-// On the axis of a cylinder and at the centre of a flask's arc, where the gradient is +x because nothing else tells. One step then
+// On the axis of a cylinder and at the center of a flask's arc, where the gradient is +x because nothing else tells. One step then
 // lands on the surface to a few roundings, far within where it stops, so nothing is moved.
 TEST_F(ParityLeaf, ProxyOnTheAxis) {
   const Scene scene = three_beakers();

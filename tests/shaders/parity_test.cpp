@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole way of a grip on a device against the core, in float and in double; that a broken constant, or a hand moved by
-// micrometres, is noticed. Sanitized runs have the same way in parity_shortcuts_test.cpp.
+// micrometers, is noticed. Sanitized runs have the same way in parity_shortcuts_test.cpp.
 // sanitizers: none
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A loop whose useful lanes are known, to see whether a device counts them right: a lane takes a turn more than its neighbour, up to push.number,
+// A loop whose useful lanes are known, to see whether a device counts them right: a lane takes a turn more than its neighbor, up to push.number,
 // and every other turn is useful.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -20,7 +20,7 @@ struct RigOptions {
 HeldSetup rig_setup(const std::vector<core_f64::ContactPoint>& contacts, const core_f64::HandStrength& hand,
                     const RigOptions& options);
 
-// Presses with these normal forces for 0.4 s while it is pinned, and lets it go under `force` at its centre of mass.
+// Presses with these normal forces for 0.4 s while it is pinned, and lets it go under `force` at its center of mass.
 void press_and_release(HeldBody& body, const std::vector<double>& normal_forces, const core_f64::Vec3& force);
 
 }  // namespace wholehand

@@ -70,7 +70,7 @@ class SharedDeviceLog {
   DeviceLog* log_;
 };
 
-// The beaker stands where the device's thumb presses some millimetres into it, and stays there: a force of some newtons from the
+// The beaker stands where the device's thumb presses some millimeters into it, and stays there: a force of some newtons from the
 // first tick on.
 constexpr const char* PRESSED_SCENE =
     "[device]\ngap_mm = [0, 25]\n[live]\nrate_Hz = 500\nramp_s = 0\nslew_N_s = 100000\njump_m_s = 1000\nlate_steps = 1000\n"

@@ -36,7 +36,7 @@ inline std::vector<std::string> drawn_paths(const std::string& svg, const std::s
   return paths;
 }
 
-// Points of the lines of a colour, each unbroken stretch by itself; those in the legend too.
+// Points of the lines of a color, each unbroken stretch by itself; those in the legend too.
 inline std::vector<std::vector<std::array<double, 2>>> drawn_lines(const std::string& svg, const std::string& color) {
   std::vector<std::vector<std::array<double, 2>>> lines;
   static const std::regex point("([ML])([-0-9.]+) ([-0-9.]+)");
@@ -49,7 +49,7 @@ inline std::vector<std::vector<std::array<double, 2>>> drawn_lines(const std::st
   return lines;
 }
 
-// Left, top, right and bottom of the areas of a colour.
+// Left, top, right and bottom of the areas of a color.
 inline std::vector<std::array<double, 4>> drawn_boxes(const std::string& svg, const std::string& color) {
   std::vector<std::array<double, 4>> boxes;
   static const std::regex box("M([-0-9.]+) ([-0-9.]+)H([-0-9.]+)V([-0-9.]+)H");
@@ -59,7 +59,7 @@ inline std::vector<std::array<double, 4>> drawn_boxes(const std::string& svg, co
   return boxes;
 }
 
-// How many marks of a colour there are; those in the legend too.
+// How many marks of a color there are; those in the legend too.
 inline std::size_t drawn_marks(const std::string& svg, const std::string& color) {
   std::size_t marks = 0;
   static const std::regex path("<path fill=\"([^\"]*)\" d=\"([^\"]*)\"");

@@ -37,7 +37,7 @@ void expect_error(const Action& action, ExitCode code, const std::string& start)
 template <class Open>
 void check_session(MockGripper& mock, const Open& open) {
   constexpr int CYCLES = 300;
-  constexpr double ROUNDING = 2e-9;  // m, and of a rotation: nanometres and 2^-30, rounded
+  constexpr double ROUNDING = 2e-9;  // m, and of a rotation: nanometers and 2^-30, rounded
   std::unique_ptr<Gripper> gripper = open();
   EXPECT_EQ(gripper->limits().force, 12);
   EXPECT_EQ(gripper->limits().grip, 8);

@@ -7,7 +7,7 @@
 // by
 //   two stop tolerances), which is the conditioning at that very row, and
 //   FORWARD roundings of the quantity's scale, for the operations behind it.
-// A discrete answer may differ only where it differs between such neighbours too; such rows are counted and bounded.
+// A discrete answer may differ only where it differs between such neighbors too; such rows are counted and bounded.
 // Where the inputs are such that the arithmetic up to a decision is exact, nothing is moved: the decision is the same or wrong.
 #pragma once
 
@@ -26,7 +26,7 @@
 
 namespace wholehand {
 
-// Rows in which a discrete answer differs between neighbours, of a table: as many as lie within roundings of a boundary by chance.
+// Rows in which a discrete answer differs between neighbors, of a table: as many as lie within roundings of a boundary by chance.
 constexpr double UNDECIDED = 0.01;
 
 constexpr double REACH = 0.3;  // m: scale of positions, hand and vessel together

@@ -21,7 +21,7 @@ struct Piece {
 };
 using Cavity = std::vector<Piece>;  // y ascending
 
-// Volume m3, centre of mass along n and y, m (0 where there is no volume).
+// Volume m3, center of mass along n and y, m (0 where there is no volume).
 struct Body {
   Wide volume = 0, lean = 0, height = 0;
 };

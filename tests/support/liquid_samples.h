@@ -20,7 +20,7 @@ constexpr liquid_reference::Wide PI_L = 3.14159265358979323846264338327950288L;
 constexpr double BEAKER1_RADIUS = 38.5e-3, BEAKER1_FLOOR = 1.5e-3, BEAKER1_DEPTH = 108.5e-3;
 constexpr liquid_reference::Wide BEAKER1_CAPACITY = PI_L * BEAKER1_RADIUS * BEAKER1_RADIUS * BEAKER1_DEPTH;
 
-// 1e-10 of the capacity is what is promised of volumes; 1e-9 m of the liquid's centre follows for fills that are not tiny: a centre
+// 1e-10 of the capacity is what is promised of volumes; 1e-9 m of the liquid's center follows for fills that are not tiny: a center
 // is a moment over a volume, good to 1e-10 of the vessel's 0.1 m over the fill's 0.05.
 constexpr double LIQUID_VOLUME_SHARE = 1e-10;
 constexpr double LIQUID_CENTER = 1e-9;

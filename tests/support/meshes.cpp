@@ -298,7 +298,7 @@ std::string ply_text(const TriangleMesh& mesh, PlyWriting writing) {
     body += bytes;
   };
   for (const Triple& p : mesh.vertices) {
-    put(std::uint8_t{10});  // a colour, and an end of line where the header ends
+    put(std::uint8_t{10});  // a color, and an end of line where the header ends
     for (const double x : p) put(static_cast<float>(x));
     if (is_ascii) body += "\n";
   }

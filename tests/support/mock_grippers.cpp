@@ -27,7 +27,7 @@ __attribute__((constructor)) void start_again_preloaded(int argc, char** argv, c
 
 double monotonic() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// About the middle of a gripper's workspace, some millimetres to and fro, and a turn about an axis that is none of the three.
+// About the middle of a gripper's workspace, some millimeters to and fro, and a turn about an axis that is none of the three.
 GripperState moving(double time) {
   GripperState state;
   state.position = {0.010 * std::sin(3 * time), 0.005 * std::cos(2 * time), -0.007 * std::sin(time)};

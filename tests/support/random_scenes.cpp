@@ -27,7 +27,7 @@ std::string ascending(SceneDraw& draw, int count, double low, double high) {
   return text + "]";
 }
 
-// Outwards from the base and upwards, of segments and of arcs whose centre is anywhere on the perpendicular through their middle.
+// Outwards from the base and upwards, of segments and of arcs whose center is anywhere on the perpendicular through their middle.
 std::string random_outline(SceneDraw& draw, double size) {
   double r = size * draw.between(0.1, 0.5), y = 0;
   std::string text = fmt::format("outline = [\n  {{ line = [{:.9g}, 0] }},\n", r);

@@ -66,7 +66,7 @@ class Sampled {
 Vec3 around(Vec2 q, double azimuth);
 // Within half as much again of the vessel's radius and 0.4 of its height.
 Vec2 point_in_box(const VesselData& vessel, Random& random);
-// Everywhere, the axis, on and beside the surface and its corners, level with the ends of elements, centres of arcs, far away.
+// Everywhere, the axis, on and beside the surface and its corners, level with the ends of elements, centers of arcs, far away.
 std::vector<Vec2> queries(const VesselData& vessel, const std::vector<Piece>& pieces, int count, std::uint64_t seed);
 
 }  // namespace wholehand

@@ -30,7 +30,7 @@ VesselData vase();      // twelve elements, six of them arcs, convex and concave
 VesselData can();       // base and rim rounded: no tangent has anything beyond it; no wall, mass given
 VesselData spindle();   // two cones, with tips on the axis; no wall, mass given
 VesselData ledges();    // twelve elements with level ledges, overhangs and arcs that pass their circle's pole; no wall, mass given
-VesselData lopsided();  // beaker1 with its mass and a centre of mass off the axis given
+VesselData lopsided();  // beaker1 with its mass and a center of mass off the axis given
 VesselData shell_of(VesselData vessel);                      // the same with surface = shell
 VesselData scaled(const VesselData& vessel, double factor);  // every length of it
 double largest_radius(const VesselData& vessel);             // m

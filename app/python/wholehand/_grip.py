@@ -111,7 +111,7 @@ class Grip(Mapping[str, Any]):
 
     @property
     def states(self) -> xr.Dataset:
-        """What depends on fill and tilt: variables over (fill, tilt) with their units, and (fill, tilt, xyz) for centres of mass.
+        """What depends on fill and tilt: variables over (fill, tilt) with their units, and (fill, tilt, xyz) for centers of mass.
 
         Forces in N, torques in N m, of the scene's fills and tilts or of those that were asked for. Contacts are in
         ``grip["states"][k]["contacts"]``. Without states the dataset is empty.

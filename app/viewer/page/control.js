@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page as the gripper: drag the hand, close it, tilt it. What it sends is where the hand is to be in the world (docs/view.md).
 import {Matrix4, Quaternion, Vector3} from './three.module.js';
-import {degrees, element, millimetres} from './format.js';
+import {degrees, element, millimeters} from './format.js';
 
 const HAND = 0.1, NEAR = 48;           // m about the hand's middle in which a drag takes it, and px at least
 const INTERVAL = 1000 / 60;            // ms between two states that are sent
@@ -53,7 +53,7 @@ export class Control {
     };
     this.grasp = element('button', {type: 'button', class: 'grasp', text: 'Grasp', title: 'Close the hand until it holds, or let go (Space)'});
     this.grasp.addEventListener('click', () => this.toggle());
-    const axis = (k) => [() => this.position.getComponent(k) * 1e3, (mm) => this.moveTo(k, mm / 1e3), () => millimetres(this.position.getComponent(k), 0) + ' mm'];
+    const axis = (k) => [() => this.position.getComponent(k) * 1e3, (mm) => this.moveTo(k, mm / 1e3), () => millimeters(this.position.getComponent(k), 0) + ' mm'];
     const range = (k) => [-reach, reach].map((way) => Math.round((this.limits.center[k] + way) * 1e3));
     place.append(
       element('p', {class: 'hint', text: 'Drag the hand to move it. Hold Shift to move it over the table. Drag beside it to look around.'}), this.grasp,

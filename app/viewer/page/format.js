@@ -10,7 +10,7 @@ export function fixed(value, digits = 1) {
   const text = value.toFixed(digits);
   return (Number(text) === 0 ? text.replace('-', '') : text.replace('-', '−'));
 }
-export const millimetres = (value, digits = 1) => fixed(isNumber(value) ? value * 1e3 : null, digits);
+export const millimeters = (value, digits = 1) => fixed(isNumber(value) ? value * 1e3 : null, digits);
 export const degrees = (value, digits = 0) => fixed(isNumber(value) ? value * 180 / Math.PI : null, digits);
 export const percent = (value, digits = 0) => fixed(isNumber(value) ? value * 100 : null, digits);
 export const millilitres = (value, digits = 0) => fixed(isNumber(value) ? value * 1e6 : null, digits);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The best grips of a sweep, or one grip: a list with the terms of the score, sliders for tilt and fill, and the forces over the tilt.
-import {degrees, element, fixed, millimetres} from './format.js';
+import {degrees, element, fixed, millimeters} from './format.js';
 import {record} from './charts.js';
 import {States} from './stream.js';
 
@@ -69,9 +69,9 @@ export class Grips {
 
   // Where a grip is taken; azimuth and offset where any grip of the list has one, or this grip, which may be a refined one.
   placeOf(grip) {
-    return [`${millimetres(grip.height_m)} mm`, `roll ${degrees(grip.roll_rad)}°`, `obliquity ${degrees(grip.obliquity_rad)}°`,
+    return [`${millimeters(grip.height_m)} mm`, `roll ${degrees(grip.roll_rad)}°`, `obliquity ${degrees(grip.obliquity_rad)}°`,
       ...(this.has('azimuth_rad') || Math.abs(grip.azimuth_rad) > 1e-9 ? [`azimuth ${degrees(grip.azimuth_rad)}°`] : []),
-      ...(this.has('offset_m') || Math.abs(grip.offset_m) > 1e-9 ? [`offset ${millimetres(grip.offset_m)} mm`] : [])].join(', ');
+      ...(this.has('offset_m') || Math.abs(grip.offset_m) > 1e-9 ? [`offset ${millimeters(grip.offset_m)} mm`] : [])].join(', ');
   }
 
   makeOption(grip, k) {
@@ -101,7 +101,7 @@ export class Grips {
     }));
     this.facts.replaceChildren(...[
       ['Largest force', `${fixed(grip.peak_force_N, 2)} N`], [this.about.strength ? 'Largest pinch N‑hold' : 'Largest N‑hold', `${fixed(grip.hold_force_N, 1)} N`], ['Safe up to', `${degrees(grip.safe_tilt_rad)}°${grip.safe_to_end ? ' or more' : ''}`],
-      ['Deepest point', `${millimetres(grip.depth_m)} mm`], ['Fingers', `${grip.fingers} of 5`], ['Pinch', grip.antipodal ? 'antipodal' : 'not antipodal'],
+      ['Deepest point', `${millimeters(grip.depth_m)} mm`], ['Fingers', `${grip.fingers} of 5`], ['Pinch', grip.antipodal ? 'antipodal' : 'not antipodal'],
       ...(grip.refined ? [['Refined score', fixed(grip.refined.score, 3)], ['Refined grip', this.placeOf(grip.refined)]] : []),
       ...(grip.robust ? [['Robust mean', fixed(grip.robust.mean, 3)], ['Robust low', fixed(grip.robust.low, 3)]] : []),
     ].map(([name, value]) => element('div', {}, element('dt', {text: name}), element('dd', {text: value}))));

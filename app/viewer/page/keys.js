@@ -27,7 +27,7 @@ export function viewKeys(view, buttons) {
   ];
 }
 
-// Native behaviour of what has the focus comes first: arrows in a slider, letters in a list, space on a button.
+// Native behavior of what has the focus comes first: arrows in a slider, letters in a list, space on a button.
 function isOwn(target, key) {
   if (target.closest('dialog')) return true;
   if (target.matches('select, [role=listbox]')) return key.length === 1 || key.startsWith('Arrow') || key === 'Home' || key === 'End';

@@ -26,7 +26,7 @@ const VERTEX = `varying vec3 at, out_of, to_eye;
     gl_Position = projectionMatrix * viewMatrix * world;
   }`;
 
-// Deep colour where one looks through much of it, pale where it is thin.
+// Deep color where one looks through much of it, pale where it is thin.
 const BODY_FRAGMENT = `
   uniform vec3 color, up; uniform float level, is_back; varying vec3 at, out_of, to_eye;
   void main() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Marks that stay as large as they are on the screen: the 24 contact points by state, in shape and colour, and the guidance point. Those behind
+// Marks that stay as large as they are on the screen: the 24 contact points by state, in shape and color, and the guidance point. Those behind
 // something, or under the table, are pale.
 import * as THREE from './three.module.js';
 import {JOINTS} from './hand_shape.js';

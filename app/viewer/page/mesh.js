@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surfaces from meshes: smooth where neighbours lie almost in one plane, with an edge where they do not.
+// Surfaces from meshes: smooth where neighbors lie almost in one plane, with an edge where they do not.
 import {BufferAttribute, BufferGeometry} from './three.module.js';
 
 const CREASE = Math.cos(35 * Math.PI / 180);

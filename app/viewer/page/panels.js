@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The numbers beside the picture: state, hand, forces, amounts, loop; and the legend of the contact points.
-import {askedForce, degrees, element, feltForce, fixed, isNumber, millilitres, millimetres, percent, setText, whole} from './format.js';
+import {askedForce, degrees, element, feltForce, fixed, isNumber, millilitres, millimeters, percent, setText, whole} from './format.js';
 import {CONTACTS, liquidColor} from './theme.js';
 
 const WAY = 5;  // states that a session goes through until the vessel is let go
@@ -145,7 +145,7 @@ export class Panels {
     setText(this.stateVessel, grip ? grip.label : vessel ? vessel.name : '');
     for (const step of this.steps) step.classList.toggle('now', step.dataset.state === frame.state);
     this.meters.closure.set(frame.closure, fixed(frame.closure, 2));
-    this.meters.gap.set(frame.gap, millimetres(frame.gap));
+    this.meters.gap.set(frame.gap, millimeters(frame.gap));
     this.meters.tilt.set(frame.tilt, degrees(frame.tilt));
   }
 

@@ -34,7 +34,7 @@ export class Playback {
     }, () => {});  // without it the strip is empty; the stretches report trouble
   }
 
-  // Each state is a band with its own height and colour.
+  // Each state is a band with its own height and color.
   drawStates() {
     const {timeline, frames} = this, scale = devicePixelRatio || 1, width = timeline.clientWidth, height = timeline.clientHeight;
     if (!frames || !width) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the reader's system asks for, and every colour. Contact states and lines differ in hue and lightness as Okabe and Ito chose
-// them for all kinds of colour vision, and by a shape or a dash beside it.
+// What the reader's system asks for, and every color. Contact states and lines differ in hue and lightness as Okabe and Ito chose
+// them for all kinds of color vision, and by a shape or a dash beside it.
 
 export const darkMode = matchMedia('(prefers-color-scheme: dark)');
 export const stillMode = matchMedia('(prefers-reduced-motion: reduce)');
@@ -9,7 +9,7 @@ export function onThemeChange(callback) {
   for (const query of [darkMode, stillMode]) query.addEventListener('change', callback);
 }
 
-// Colours of the three-dimensional scene, sRGB.
+// Colors of the three-dimensional scene, sRGB.
 const LIGHT = {
   sky: '#f4f6f9', horizon: '#dfe5ec', table: '#eef0f2', line: '#b9c2cc', shadow: 0.20,
   skin: '#dcb094', ghost: '#31506b', advised: '#8a3fa0', glass: '#3f5f6b', glassLight: '#ffffff', glassAlpha: 0.55, glassShine: 0.8,
@@ -22,7 +22,7 @@ const DARK = {
 };
 export const sceneColors = () => (darkMode.matches ? DARK : LIGHT);
 
-// The 24 contact points: what a state is called, its colour and the shape of its mark (device/session/hand_view).
+// The 24 contact points: what a state is called, its color and the shape of its mark (device/session/hand_view).
 export const CONTACTS = [
   {key: '.', name: 'free', color: ['#7b848f', '#98a3b0'], shape: 'ring'},
   {key: 't', name: 'touching', color: ['#d55e00', '#f08a3c'], shape: 'disc'},
@@ -37,7 +37,7 @@ export const schemeColor = (pair) => pair[darkMode.matches ? 1 : 0];
 const WATER = '#4a9fd8';
 const LIQUIDS = {red: '#d8343f', blue: '#2f6fd6', yellow: '#eebd1a', green: '#2e9e5b', orange: '#e8822a', purple: '#8a4fc4', white: '#eef0f2'};
 
-// Colour of a liquid by its name: a name of a colour means that colour, softened for the common ones; anything else looks like water.
+// Color of a liquid by its name: a name of a color means that color, softened for the common ones; anything else looks like water.
 export function liquidColor(name) {
   if (!name) return WATER;
   const plain = name.trim().toLowerCase();

@@ -122,7 +122,7 @@ class ThePageAsGripper(ViewerTest):
         moved = page.evaluate("wholehand.control.position.toArray()")
         self.wait_for_hand(page, moved)
         after = page.evaluate(f"(({{x, y}}) => [x, y])(wholehand.view.project({moved}))")
-        # the drag is at the distance of the hand's middle, the tips are some centimetres nearer or farther
+        # the drag is at the distance of the hand's middle, the tips are some centimeters nearer or farther
         self.assert_near(after, [seen[0] + 60, seen[1] - 40], 15, "pixels")
         self.assertEqual(page.evaluate("wholehand.camera().position"), camera, "the view has not turned, nor followed")
         page.mouse("mouseReleased", start[0] + 60, start[1] - 40)

@@ -91,7 +91,7 @@ TEST(GripsView, AFrameIsWhatGripTells) {
         EXPECT_EQ(std::isfinite(frame.hold) ? json(frame.hold) : json(nullptr), state["hold_force_N"]);
         EXPECT_EQ(frame.closure, told["closure"]);
         EXPECT_EQ(frame.gap, told["gap_m"]);
-        // the liquid's centre is under its surface, and the lean of both to the same side
+        // the liquid's center is under its surface, and the lean of both to the same side
         if (!vessel.surface) continue;
         const Vec3 up = to_vec3(vessel.surface->up), center = to_vec3(state["liquid_com_m"].get<Triple>());
         EXPECT_LT(glm::dot(up, center), vessel.surface->level);

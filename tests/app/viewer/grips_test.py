@@ -9,7 +9,7 @@ from harness import minus, run
 from support import ViewerTest, color_at, drawn, main, projected, slide, still, turned_back
 
 GRIP = ["three_beakers", "--vessel", "beaker1", "--height-mm", "58.5", "--roll-deg", "22"]
-DIGITS = 2e-7     # m: frames have the digits of a float, of places up to a metre
+DIGITS = 2e-7     # m: frames have the digits of a float, of places up to a meter
 ON_SCREEN = 0.5   # px: the page projects in float where the test does in double
 THUMB_TIP, INDEX_TIP = 3, 8
 STRENGTH = 25 * 158 / 236  # N, of the index finger at an opening of 80 mm: the weaker one of the two tips

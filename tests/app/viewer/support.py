@@ -106,7 +106,7 @@ def drawn(page):
 
 
 def color_at(page, x, y):
-    """Colour of the page at CSS pixel x, y."""
+    """Color of the page at CSS pixel x, y."""
     return Picture(page.picture(int(x), int(y))).color(0, 0)
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts (base/charts/axes, base/charts/colors, base/charts/field, base/charts/lines): values where they belong, colours in their order, words for
+// Charts (base/charts/axes, base/charts/colors, base/charts/field, base/charts/lines): values where they belong, colors in their order, words for
 // those who do not see them.
 // sanitizers: address
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ std::string written(const Chart& chart) {
   return html.written();
 }
 
-// The rectangles of the cells by their colour: left, bottom, right, top.
+// The rectangles of the cells by their color: left, bottom, right, top.
 std::multimap<std::string, std::array<double, 4>> cells_in(const std::string& svg) {
   std::multimap<std::string, std::array<double, 4>> cells;
   const std::regex path(R"re(<path class="cell( hollow)?"( fill="(#\w+)")? d="([^"]*)")re"),
@@ -139,7 +139,7 @@ TEST(FieldChart, WhatIsNoNumberIsAbsent) {
   }
 }
 
-TEST(FieldChart, WholeNumbersHaveAColourEach) {
+TEST(FieldChart, WholeNumbersHaveAColorEach) {
   FieldChart chart = two_by_three();
   chart.values = {0, 1, 2, 3, 4, 5};
   chart.scale = {"fingers", 0, 5, 0, 6};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Distances along rays as sphere tracing would ask for them, the lattice read in several ways. Each invocation goes along one ray in steps
-// that shrink towards its end; the points are the same for every way, and neighbouring invocations have neighbouring rays.
+// that shrink towards its end; the points are the same for every way, and neighboring invocations have neighboring rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -35,7 +35,7 @@ Real fetched_distance(Vec3 p) {
   return distance_beyond(mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z), cell.outside);
 }
 
-// The sampler's own interpolation: texel (i, j, k) has its centre half a texel further.
+// The sampler's own interpolation: texel (i, j, k) has its center half a texel further.
 Real filtered_distance(Vec3 p) {
   Vec3 origin = Vec3(scene.lattice_x, scene.lattice_y, scene.lattice_z);
   Vec3 counts = Vec3(Real(scene.lattice_nx), Real(scene.lattice_ny), Real(scene.lattice_nz));

@@ -42,7 +42,7 @@ TEST(MeshCheck, ABoxIsMeasured) {
 }
 
 TEST(MeshCheck, ClosedForms) {
-  // chords lie within a sphere: the volume misses the square of the angle between neighbours, some 1e-3 here
+  // chords lie within a sphere: the volume misses the square of the angle between neighbors, some 1e-3 here
   EXPECT_NEAR(check_mesh(icosphere(0.05, 5), "sphere").facts.volume / (4 * PI / 3 * 0.05 * 0.05 * 0.05), 1, 1e-2);
   EXPECT_NEAR(check_mesh(torus(0.05, 0.02, 400, 200), "torus").facts.volume / (2 * PI * PI * 0.05 * 0.02 * 0.02), 1, 1e-3);
 }
@@ -275,7 +275,7 @@ TEST(MeshCheck, TheBackOfATwoSidedSurfaceIsLeftOut) {
 TEST(MeshCheck, AFlatSheetWithTwoSidesLeavesAClosedMeshClosed) {
   const TriangleMesh label = two_sided({{{0.2, 0, 0}, {0.2, 0.1, 0}, {0.2, 0.1, 0.1}, {0.2, 0, 0.1}, {0.2, 0.05, 0.05}},
                                         {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}});
-  const MeshFacts facts = check_mesh(joined(cube(), label), "labelled").facts;
+  const MeshFacts facts = check_mesh(joined(cube(), label), "labeled").facts;
   EXPECT_EQ(facts.back_triangles + facts.turned_triangles, 0u);
   EXPECT_TRUE(facts.closed && facts.oriented);
   EXPECT_NEAR(facts.volume, 0.006, 1e-17);

@@ -26,18 +26,18 @@ TEST(MeshHints, UnitsAreThoseInWhichAHandCanHoldIt) {
     std::string units;
   };
   const std::vector<Case> cases{
-      {{0.08, 0.1, 0.08}, "metres"},  // a cup
-      {{8, 10, 8}, "centimetres"},    // 203 mm of inches are wider than a hand spans
-      {{80, 100, 80}, "millimetres"},
-      {{3, 4, 3}, "inches centimetres"},          // 101.6 mm, or 40 mm
-      {{9, 35.6, 9}, "centimetres millimetres"},  // a bottle of 356 mm, or one of 35.6
-      {{2, 2, 2}, "inches centimetres"},          // what an editor begins with
-      {{0.4, 0.1, 0.4}, "metres"},                // a plate
+      {{0.08, 0.1, 0.08}, "meters"},  // a cup
+      {{8, 10, 8}, "centimeters"},    // 203 mm of inches are wider than a hand spans
+      {{80, 100, 80}, "millimeters"},
+      {{3, 4, 3}, "inches centimeters"},          // 101.6 mm, or 40 mm
+      {{9, 35.6, 9}, "centimeters millimeters"},  // a bottle of 356 mm, or one of 35.6
+      {{2, 2, 2}, "inches centimeters"},          // what an editor begins with
+      {{0.4, 0.1, 0.4}, "meters"},                // a plate
       {{0.45, 0.1, 0.45}, ""},                    // too large, and too small in any other
       {{0.2, 0.2, 0.2}, ""},                      // no side that a hand spans
       {{4277, 2600, 2600}, ""},                   // in thousandths of an inch
       {{0.9, 0.9, 0.9}, "inches"},
-      {{380, 380, 30}, "millimetres"},
+      {{380, 380, 30}, "millimeters"},
       {{80e-6, 80e-6, 80e-6}, ""},
   };
   for (const Case& each : cases) {
@@ -52,16 +52,16 @@ TEST(MeshHints, SizesThatNoHandHoldsGetTheLikelyScales) {
   EXPECT_EQ(mesh_size_hint({0.03, 0.02, 0.03}).text, "");
   EXPECT_EQ(
       mesh_size_hint({9, 35.6, 9}).text,
-      "it is 35.6 m large, which a hand hardly holds: its numbers are taken as metres; the likely scale is one of mesh_scale = "
-      "0.01 (centimetres: 356 mm), 0.001 (millimetres: 35.6 mm)");
+      "it is 35.6 m large, which a hand hardly holds: its numbers are taken as meters; the likely scale is one of mesh_scale = "
+      "0.01 (centimeters: 356 mm), 0.001 (millimeters: 35.6 mm)");
   EXPECT_EQ(mesh_size_hint({0.08, 0.12, 0.08}, 1).text, "");
   EXPECT_EQ(mesh_size_hint({80, 120, 80}).text,
-            "it is 120 m large, which a hand hardly holds: its numbers are taken as metres; the likely scale is mesh_scale = 0.001 "
-            "(millimetres: 120 mm)");
+            "it is 120 m large, which a hand hardly holds: its numbers are taken as meters; the likely scale is mesh_scale = 0.001 "
+            "(millimeters: 120 mm)");
   // beside a scale that was given: that of the file's own numbers
   EXPECT_EQ(mesh_size_hint({80e-6, 120e-6, 80e-6}, 0.001).text,
-            "it is 0.12 mm large, which a hand hardly holds: its numbers times 0.001 are taken as metres; the likely scale is "
-            "mesh_scale = 1 (metres: 120 mm)");
+            "it is 0.12 mm large, which a hand hardly holds: its numbers times 0.001 are taken as meters; the likely scale is "
+            "mesh_scale = 1 (meters: 120 mm)");
   EXPECT_TRUE(
       has(mesh_size_hint({4277, 2600, 2600}).text, "it would fit in no usual unit, and mesh_scale = 4.676e-06 to 5.769e-05"));
   EXPECT_TRUE(has(mesh_size_hint({80e-6, 80e-6, 80e-6}).text, "mesh_scale = 250 to 1875 makes it fit"));
@@ -71,7 +71,7 @@ TEST(MeshHints, SizesThatNoHandHoldsGetTheLikelyScales) {
   EXPECT_TRUE(mesh_size_hint({2, 2, 2}).is_other_unit && mesh_size_hint({1e-4, 1e-4, 1e-4}).is_other_unit);
 }
 
-// Every size from a tenth of a millimetre to a hundred metres is held, or gets a hint whose scales are held.
+// Every size from a tenth of a millimeter to a hundred meters is held, or gets a hint whose scales are held.
 TEST(MeshHints, FollowingASizeHintHelps) {
   for (double size = 1e-4; size < 100; size *= 1.07) {
     const Triple numbers{size, 0.8 * size, 0.3 * size};
@@ -184,9 +184,9 @@ TEST(MeshHints, AnInnerOutlineInAnotherUnitIsNamed) {
   EXPECT_FALSE(has(said(1), "inner outline is"));
   EXPECT_TRUE(has(said(0.001),
                   "the inner outline is 0.098 mm high and 0.076 mm wide, far smaller than the mesh of 100 and 80 mm; it is "
-                  "read as millimetres, and its numbers look like metres: multiply them by 1000"))
+                  "read as millimeters, and its numbers look like meters: multiply them by 1000"))
       << said(0.001);
-  EXPECT_TRUE(has(said(0.1), "its numbers look like centimetres: multiply them by 10")) << said(0.1);
+  EXPECT_TRUE(has(said(0.1), "its numbers look like centimeters: multiply them by 10")) << said(0.1);
   EXPECT_EQ(inner_outline_hint(0.05, 0.03, 0.18, 0.04), "") << "a glass with a stem";
   EXPECT_EQ(inner_outline_hint(0.015, 0.005, 0.1, 0.04),
             "the inner outline is 15 mm high and 10 mm wide, far smaller than the mesh of 100 and 80 mm");

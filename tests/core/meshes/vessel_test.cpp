@@ -137,7 +137,7 @@ TEST_F(MeshVessel, TurnedAndMovedCopiesGiveTheSameGrips) {
   const auto there = make_core_evaluator(plain);
   const double error = plain.vessels[0].mesh->body->lattice_error;
 
-  // a file that lies on its side, stood up by the scene; centred by the scene again
+  // a file that lies on its side, stood up by the scene; centered by the scene again
   const TriangleMesh lying = placed_mesh(mug, {-PI / 2, 0, 0}, {0.5, -0.2, 0.1});
   VesselData stood = of_file("lying", lying, spacing);
   stood.mesh->rotate = {PI / 2, 0, 0};

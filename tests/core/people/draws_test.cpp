@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that are found by counting: by another program, uniform, and unrelated to those of every neighbouring name.
+// Numbers that are found by counting: by another program, uniform, and unrelated to those of every neighboring name.
 #include "core/people/draws.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ double correlation(const std::function<double(std::uint64_t)>& a, const std::fun
   return sum / COUNT * 12;
 }
 
-TEST(Draws, NeighboursAreUnrelated) {
+TEST(Draws, NeighborsAreUnrelated) {
   const auto plain = [](std::uint64_t k) { return drawn({9, k}, 3); };
   // deviation of the correlation of 40,000 unrelated pairs: 0.005; five of them
   constexpr double FIVE = 0.025;

@@ -59,7 +59,7 @@ TEST(SceneCavity, FloorIsAsThickAsItSays) {
 }
 
 TEST(SceneCavity, FloorCutsARoundBottom) {
-  // the inner wall is a ball of 38 about the same middle, but in the last millimetre, where the rim's edge at [a, 140] is the
+  // the inner wall is a ball of 38 about the same middle, but in the last millimeter, where the rim's edge at [a, 140] is the
   // nearest: with s from the mouth down r = a - (4 - s^2)^(1/2)
   const Scene scene = scene_from(wine_glass("wall_mm = 2\nfloor_mm = 85"));
   const double a = std::sqrt(40.0 * 40 - 400);
@@ -70,7 +70,7 @@ TEST(SceneCavity, FloorCutsARoundBottom) {
 TEST(SceneCavity, InnerOutlineIsWhatItHolds) {
   const Scene scene = scene_from(wine_glass(BOWL) + "[liquid]\nfills = [0.5]\n");
   const VesselData& vessel = scene.vessels[0];
-  EXPECT_NEAR(vessel.wall, 2e-3, 1e-9);  // its thinnest place: two spheres about one middle, in 12 digits of a millimetre
+  EXPECT_NEAR(vessel.wall, 2e-3, 1e-9);  // its thinnest place: two spheres about one middle, in 12 digits of a millimeter
   const double held = segment(38, -38, 20) * 1e-9;
   EXPECT_NEAR(capacity_of(vessel), held, 1e-14);
   const auto core = make_core_evaluator(scene);

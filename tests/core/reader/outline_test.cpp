@@ -19,7 +19,7 @@ std::string outline_scene(const std::string& elements, const std::string& wall =
 }
 
 // As far apart as they may be at the least, which no two doubles at 50 and 50.001 are.
-TEST(SceneOutline, EdgesOfAMicrometreAreLongEnough) {
+TEST(SceneOutline, EdgesOfAMicrometerAreLongEnough) {
   const Scene scene = parse_scene(
       "[[vessel]]\nname = \"v\"\nmass_kg = 1\ncenter_of_mass_mm = [0, 0, 0]\noutline = [{ line = [30, 0] }, { line = [30, 50] }, "
       "{ line = [30.001, 50] }, { line = [30.001, 50.001] }, { line = [0, 50.001] }]",

@@ -17,7 +17,7 @@
 namespace wholehand::protocol {
 namespace {
 
-constexpr double WIRE_ROUNDING = 1e-9;  // m and of a rotation's parts: a nanometre, and 2^-30 rounded
+constexpr double WIRE_ROUNDING = 1e-9;  // m and of a rotation's parts: a nanometer, and 2^-30 rounded
 
 InputReport some_report() {
   InputReport report;
@@ -164,7 +164,7 @@ TEST(Protocol, ReportsComeBackAsTheyWere) {
   EXPECT_EQ(watchdog.period, 2000u);
 }
 
-TEST(Protocol, StatesComeBackWithinANanometre) {
+TEST(Protocol, StatesComeBackWithinANanometer) {
   // turns about each axis and about none of them, so that each part of the quaternion is the largest once
   for (const auto& [x, y, z, angle] :
        std::vector<std::array<double, 4>>{{1, 0, 0, 3.1}, {0, 1, 0, -3.1}, {0, 0, 1, 3.0}, {0.6, 0, 0.8, 0.4}, {0, 0, 1, 0}}) {

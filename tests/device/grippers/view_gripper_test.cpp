@@ -115,7 +115,7 @@ TEST(ViewGripper, TheHandGoesWhereTheControlSaysWhateverTheDevice) {
       });
       const auto ticks = run(scene, gripper, 2);
       const Tick& last = ticks[ticks.size() - 2];
-      // two seconds are 120 time constants; what is left is rounding, of lengths up to a metre times the scale
+      // two seconds are 120 time constants; what is left is rounding, of lengths up to a meter times the scale
       EXPECT_LT(distance(last.middle, place), 1e-12) << is_left << is_odd;
       EXPECT_NEAR(last.gap, 0.06, 1e-12) << is_left << is_odd;
       for (int k = 0; k < 9; ++k) EXPECT_NEAR(last.hand_rotation[k], rotation[k], 1e-12) << is_left << is_odd << k;

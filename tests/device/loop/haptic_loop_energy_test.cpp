@@ -109,7 +109,7 @@ TEST(Energy, NeverGrowsAgainstAPassiveWall) {
                   ASSERT_LE(energy, last + 1e-12) << k;
                   last = energy;
                 }
-                // it begins a millimetre or two away, and gets m v / b far
+                // it begins a millimeter or two away, and gets m v / b far
                 if (press > 0 || mass * speed / b > 4e-3) {
                   EXPECT_GT(strongest, 0);
                 }

@@ -93,8 +93,8 @@ TEST(Proxy, ComesToTheNearestPlaceOfASmoothSurface) {
   }
 }
 
-// Wherever a tip comes to rest, edges and creases and thin walls included: of many places around the proxy, from a micrometre to
-// millimetres away, none that is outside is nearer to the tip. 3e-8 m: a proxy may be PROXY_OUTSIDE
+// Wherever a tip comes to rest, edges and creases and thin walls included: of many places around the proxy, from a micrometer to
+// millimeters away, none that is outside is nearer to the tip. 3e-8 m: a proxy may be PROXY_OUTSIDE
 // inside, or as much above it, and the search ends where a step gains less than 1e-9.
 TEST(Proxy, NoPlaceNearbyIsNearerToTheTip) {
   Random random(11);
@@ -103,7 +103,7 @@ TEST(Proxy, NoPlaceNearbyIsNearerToTheTip) {
     const Tabletop table({data}, {TABLETOP_PLACE});
     for (const double radius : {0.0, 2e-3, FINGERTIP}) {
       for (int k = 0; k < 60; ++k) {
-        // from outside or from within, to a few millimetres beyond the surface
+        // from outside or from within, to a few millimeters beyond the surface
         const Vec3 target =
             TABLETOP_PLACE + around_axis(random.uniform(0, 45e-3), random.uniform(0, 1.05 * data.height), random.uniform(-PI, PI));
         Vec3 from = target + random.uniform(5e-3, 40e-3) * random_unit(random);

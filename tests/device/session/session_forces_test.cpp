@@ -219,7 +219,7 @@ TEST(Session, FeelsExactlyWhatTheSweepSays) {
         state.position = scene.vessels[0].place;
         state.position[1] += script.height;
       }
-      if (grasped > 0) state.gap = grasped - 1e-3;  // squeezed by a millimetre
+      if (grasped > 0) state.gap = grasped - 1e-3;  // squeezed by a millimeter
       return state;
     };
     Session session(scene, own_gap(scene.hand));

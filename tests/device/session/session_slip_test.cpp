@@ -66,7 +66,7 @@ TEST(Session, SlipsWhenTheOpeningLeavesItsBand) {
   Scene scene = live_scene();
   scene.live.slip = 6e-3;
   const LiveScript script = script_for(scene);
-  // held at 2300, then opened by a tenth of a millimetre a tick
+  // held at 2300, then opened by a tenth of a millimeter a tick
   const auto at = [&](std::int64_t n) {
     GripperState state = script.at(std::min<std::int64_t>(n, 2300));
     state.gap += 1e-4 * static_cast<double>(std::clamp<std::int64_t>(n - 2300, 0, 200));

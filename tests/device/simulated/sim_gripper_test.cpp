@@ -235,7 +235,7 @@ TEST(SimGripper, EachBeakerIsLiftedTiltedPouredAndReturned) {
     EXPECT_GT(highest, 0.05) << vessel;
     EXPECT_GT(steepest, radians(40)) << vessel;
     EXPECT_GT(poured, 40e-6) << vessel;
-    // the last tick of its way is up to a period short of the end: 10 (T / 0.5 s)^3 of a centimetre
+    // the last tick of its way is up to a period short of the end: 10 (T / 0.5 s)^3 of a centimeter
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(place[k], scene.vessels[vessel].place[k], 1e-8) << "back where it stood";
   }
 }
@@ -348,7 +348,7 @@ TEST(SimGripper, WorksAtEveryRateAndWithAMappedGapAndALeftHand) {
   }
 }
 
-// A band of a hundredth of a millimetre: every grip is lost at once; after three attempts the user gives up instead of going on for
+// A band of a hundredth of a millimeter: every grip is lost at once; after three attempts the user gives up instead of going on for
 // ever.
 TEST(SimGripper, GivesUpWhatCannotBeHeld) {
   Scene scene = beside_each_other(three_beakers());

@@ -79,7 +79,7 @@ TEST(Check, HoldsWhereTheTwinsAgree) {
 TEST(Check, SaysNoWhereAConstantDiffersOnOneSide) {
   const Scene scene = small_scene();
   Scene broken = scene;
-  broken.hand.fingers[2].radii[4] += 50e-6;  // the middle fingertip is 50 micrometres thicker on the device
+  broken.hand.fingers[2].radii[4] += 50e-6;  // the middle fingertip is 50 micrometers thicker on the device
   CheckOptions options;
   options.device_scene = &broken;
   const CheckReport report = check_scene(scene, options);

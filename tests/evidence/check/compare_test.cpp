@@ -94,7 +94,7 @@ TEST_F(Compare, HoldsForTheSameAnswers) {
   EXPECT_EQ(outside("", [](GatheredPlanes&, std::size_t) {}).second, 0u);
 }
 
-TEST_F(Compare, FindsALengthThatIsOffByMicrometres) {
+TEST_F(Compare, FindsALengthThatIsOffByMicrometers) {
   const auto [gaps, all] = outside("gap", [&](GatheredPlanes& planes, std::size_t i) { real(planes, FIELD_GAP, 0, i) += 100e-6; });
   EXPECT_EQ(gaps, feasible_grips());
   EXPECT_EQ(all, gaps);

@@ -153,7 +153,7 @@ TEST(ErrorTime, WholeHandsAreCompared) {
 }
 
 // A bracket of the tolerance's width holds the effort: no worst effort is further from the finest one than that. What holds with
-// other contacts is an outcome, and a finger that rests a nanometre elsewhere moves an effort by a millionth.
+// other contacts is an outcome, and a finger that rests a nanometer elsewhere moves an effort by a millionth.
 TEST(ErrorTime, NoEffortIsWrongByMoreThanItsTolerance) {
   Scene scene = three_beakers();
   scene.strength.emplace();

@@ -49,11 +49,11 @@ TEST(ErrorTime, FiguresTakeWhatIsNoNumberForTheWorst) {
   EXPECT_EQ(figures_of({3, 3}, {"first", "second"}).worst, "first");
 }
 
-ErrorRow row_of(const std::string& name, double microseconds, double micrometres) {
+ErrorRow row_of(const std::string& name, double microseconds, double micrometers) {
   ErrorRow row;
   row.variant.name = name;
   row.errors.fill(figures_of({}, {}));
-  row.errors[ERROR_GAP] = figures_of({micrometres}, {"0:0"});
+  row.errors[ERROR_GAP] = figures_of({micrometers}, {"0:0"});
   row.seconds_per_grip = microseconds * 1e-6;
   return row;
 }

@@ -19,7 +19,7 @@ namespace {
 // Where float is not within its tolerances, and why.
 const std::map<std::string, std::string> FLOAT_EXCEPTIONS{
     {"along_the_axis", "2e-8 off the axis is nearer than float's DEGENERATE_SINE and further than double's"},
-    {"far_off", "at 25 m from an arc's centre float's distances step by 2 um, more than its stop tolerance: proxies do not settle"},
+    {"far_off", "at 25 m from an arc's center float's distances step by 2 um, more than its stop tolerance: proxies do not settle"},
     {"weak_and_strong",
      "strengths are in the ratio of 1 to 100,000: in the unit of the strongest the weakest is near float's rounding"},
 };

@@ -77,7 +77,7 @@ void along_the_axis(const AnsweredScene& a) {
   }
 }
 
-// The line passes the centre of mass; the middle of the tips, 8 and 7 mm thick, half a millimetre along it. So no torque topples
+// The line passes the center of mass; the middle of the tips, 8 and 7 mm thick, half a millimeter along it. So no torque topples
 // the block, whatever the tilt.
 void center_of_mass(const AnsweredScene& a) {
   EXPECT_EQ(a.count_feasible(), a.grips[0].size());
@@ -92,7 +92,7 @@ void center_of_mass(const AnsweredScene& a) {
 void creases_and_rim(const AnsweredScene& a) { EXPECT_EQ(a.count_feasible(), a.grips[0].size()); }
 
 // A bead of 1 mm between tips of 15 mm: their gap is theirs and little more.
-void one_millimetre(const AnsweredScene& a) {
+void one_millimeter(const AnsweredScene& a) {
   EXPECT_EQ(a.count_feasible(), a.grips[0].size());
   a.each([&](std::size_t v, std::size_t i) {
     EXPECT_GE(a.real(FIELD_GAP, v, i), 0.015);
@@ -114,11 +114,11 @@ void giant(const AnsweredScene& a) {
   });
 }
 
-void tank_of_ten_metres(const AnsweredScene& a) {
+void tank_of_ten_meters(const AnsweredScene& a) {
   for (std::size_t i = 0; i < a.grips[0].size(); ++i) EXPECT_EQ(a.reason(0, i), REASON_TOO_WIDE) << i;
 }
 
-void pole_of_ten_metres(const AnsweredScene& a) { EXPECT_EQ(a.count_feasible(), a.grips[0].size()); }
+void pole_of_ten_meters(const AnsweredScene& a) { EXPECT_EQ(a.count_feasible(), a.grips[0].size()); }
 
 // The same hand on the same vessel at another size: the scene's lengths over `factor` are those of a beaker and a common hand.
 void like_a_beaker(const AnsweredScene& a, double factor) {
@@ -155,13 +155,13 @@ void tangent_to_the_wall(const AnsweredScene& a) {
   });
 }
 
-void edges_of_a_micrometre(const AnsweredScene& a) {
+void edges_of_a_micrometer(const AnsweredScene& a) {
   Scene smooth = a.scene;
   smooth.vessels[0].outline = cylinder("smooth", 60, 90, 1).outline;
   const AnsweredScene b(smooth);
   EXPECT_EQ(a.count_feasible(), b.count_feasible());
   a.each([&](std::size_t v, std::size_t i) {
-    // a micrometre on either side, met aslant
+    // a micrometer on either side, met aslant
     EXPECT_NEAR(a.real(FIELD_GAP, v, i), b.real(FIELD_GAP, v, i), 4 * MICROMETRE) << i;
   });
 }
@@ -471,7 +471,7 @@ const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"center_of_mass", center_of_mass},
     {"creases_and_rim", creases_and_rim},
     {"dwarf", dwarf},
-    {"edges_of_a_micrometre", edges_of_a_micrometre},
+    {"edges_of_a_micrometer", edges_of_a_micrometer},
     {"empty_glass", empty_glass},
     {"far_above_the_table", far_above_the_table},
     {"far_off", far_off},
@@ -486,13 +486,13 @@ const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"no_friction", no_friction},
     {"no_range", no_range},
     {"no_torsion", no_torsion},
-    {"one_millimetre", one_millimetre},
-    {"pole_of_ten_metres", pole_of_ten_metres},
+    {"one_millimeter", one_millimeter},
+    {"pole_of_ten_meters", pole_of_ten_meters},
     {"right_angles", right_angles},
     {"small_hand", small_hand},
     {"stiffest_gains", stiffest_gains},
     {"tangent_to_the_wall", tangent_to_the_wall},
-    {"tank_of_ten_metres", tank_of_ten_metres},
+    {"tank_of_ten_meters", tank_of_ten_meters},
     {"thin_wall", thin_wall},
     {"thousand_elements", thousand_elements},
     {"weak_and_strong", weak_and_strong},

@@ -24,7 +24,7 @@ using core_f64::Vec3;
 constexpr double LEVER_SHARE = 1e-3,
                  LEAST_PIVOT = 5e-3;  // m: a lever up to the share of the pivot length, or of the least one, is none
 
-// Tilts whose levers are nanometres upright and tens of nanometres upside down.
+// Tilts whose levers are nanometers upright and tens of nanometers upside down.
 Scene bare_scene() {
   Scene scene = scene_of({cylinder("v0", 70, 100, 2)});
   scene.force.torsion = 0;
@@ -32,7 +32,7 @@ Scene bare_scene() {
   return scene;
 }
 
-// On the level line along x: past the axis by an offset, at heights around the centre of mass.
+// On the level line along x: past the axis by an offset, at heights around the center of mass.
 std::vector<GripInput> swept_grips() {
   std::vector<GripInput> grips;
   for (const double height : {0.04, 0.05, 0.06})
@@ -124,7 +124,7 @@ struct CountedLevers {
   int held = 0, unheld = 0, pushed = 0, unpushed = 0;
 };
 
-// Grips off the axis and off the height of the centre of mass against the grip at the same height on the axis, or at the centre of mass.
+// Grips off the axis and off the height of the center of mass against the grip at the same height on the axis, or at the center of mass.
 CountedLevers count_levers(Scene scene, const std::vector<double>& above) {
   scene.strength.emplace();
   scene.hand.depth_limit = 20e-3;  // most grips are plausible

@@ -66,7 +66,7 @@ std::vector<Undecided> evaluated(const Scene& scene, const std::vector<GripInput
   return all;
 }
 
-// Heights from well below the rim to where bones of the hand lie on it, and obliquities nanometre by nanometre where a sphere of a hand that
+// Heights from well below the rim to where bones of the hand lie on it, and obliquities nanometer by nanometer where a sphere of a hand that
 // moves along the wall becomes a contact.
 TEST(UndecidedContacts, AreFlaggedWhereverEffortsDiffer) {
   const Scene scene = beaker_scene();
@@ -100,7 +100,7 @@ TEST(UndecidedContacts, AreFlaggedWhereverEffortsDiffer) {
   EXPECT_LT(50 * flagged, scanned);
 }
 
-// Fingers that pass the wall within a micrometre and go on in double rest on it in float.
+// Fingers that pass the wall within a micrometer and go on in double rest on it in float.
 TEST(UndecidedContacts, AreFlaggedWhereAFingerRestsByRounding) {
   Scene scene = former_scene();
   scene.vessels.erase(scene.vessels.begin(), scene.vessels.begin() + 2);  // beaker3

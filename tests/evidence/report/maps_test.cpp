@@ -279,14 +279,14 @@ TEST(ReportMaps, EffortsThatNothingHoldsAndMissingOnesAreDrawnApart) {
   EXPECT_TRUE(has(never, ">nothing holds</text>"));
 }
 
-TEST(ReportMaps, GreatEffortsHaveTheColourOfTheLargestShown) {
+TEST(ReportMaps, GreatEffortsHaveTheColorOfTheLargestShown) {
   const MappedEfforts efforts([](const GripInput&, std::uint64_t i) { return i % 2 == 0 ? 0.21 : 700; });
   const MapScales scales = map_scales({*efforts.map});
   EXPECT_EQ(scales.effort.low, 0.2);
   EXPECT_LE(scales.effort.high, MOST_MAPPED_EFFORT);
   const MappedEfforts all([](const GripInput&, std::uint64_t) { return 700; });
   EXPECT_EQ(map_scales({*all.map}).effort.high, MOST_MAPPED_EFFORT);
-  EXPECT_NE(all.written().find("Efforts above 2 have the colour of 2."), std::string::npos);
+  EXPECT_NE(all.written().find("Efforts above 2 have the color of 2."), std::string::npos);
 }
 
 TEST(ReportMaps, DamagedEffortsAreNone) {
@@ -304,7 +304,7 @@ TEST(ReportMaps, WithoutEffortsThereIsNoMapOfThem) {
   EXPECT_EQ(html.written().find("effort"), std::string::npos);
 }
 
-TEST(ReportMaps, ColoursMeanTheSameForAllVessels) {
+TEST(ReportMaps, ColorsMeanTheSameForAllVessels) {
   const SweptScene swept(RESULT_SCENE);
   const std::vector<GripMap> maps{read_map(*swept.source, 0), read_map(*swept.source, 1)};
   const MapScales scales = map_scales(maps);

@@ -117,7 +117,7 @@ TEST(ForceTrial, NothingOscillatesWhileItSettlesOrTurns) {
 }
 
 // The gripper pushes the fingers open by F_base over its stiffness and theirs, so nobody loses a grip that may open by 8 mm. Where
-// it may open by half a millimetre, 2.2 N end it for everybody and 0.4 N for nobody.
+// it may open by half a millimeter, 2.2 N end it for everybody and 0.4 N for nobody.
 TEST(ForceTrial, ABaseForceOpensTheFingers) {
   Scene scene = three_beakers();
   const std::atomic<bool> stop{false};

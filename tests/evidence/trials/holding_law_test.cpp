@@ -51,7 +51,7 @@ Gone pinch(const std::vector<ContactPoint>& tips, double force, const Vec3& cent
   return after(body, 2, center);
 }
 
-// 2 % of the weight, unheld, is 0.2 m/s2: 0.4 m in two seconds. What is held creeps at no more than a few tenths of a millimetre.
+// 2 % of the weight, unheld, is 0.2 m/s2: 0.4 m in two seconds. What is held creeps at no more than a few tenths of a millimeter.
 TEST(HoldingLaw, TwoTipsOnAnUprightWallHoldFromTheFormulaOn) {
   const double needed = WEIGHT / (2 * MU);
   EXPECT_LT(pinch(two_tips(0), 1.02 * needed, Vec3(0), Vec3(0, -WEIGHT, 0)).moved, 1e-3);
@@ -97,7 +97,7 @@ TEST(HoldingLaw, TwoTipsOnALeaningWallHoldFromTheFormulaOn) {
   }
 }
 
-// A centre of mass 20 mm below the line, tilted by 45 degrees. With 2 % too little it turns until the arm is 2 % shorter, by 1.2
+// A center of mass 20 mm below the line, tilted by 45 degrees. With 2 % too little it turns until the arm is 2 % shorter, by 1.2
 // degrees.
 TEST(HoldingLaw, TwoTipsHoldATorsionFromTheFormulaOn) {
   const double lever = 0.02 * std::sin(radians(45));

@@ -283,7 +283,7 @@ TEST_F(MujocoEngine, AHandThatBeginsInTheVesselIsDiscarded) {
   FAIL() << "no grip is that deep";
 }
 
-// A contact that presses with some newtons is about a tenth of a millimetre deep.
+// A contact that presses with some newtons is about a tenth of a millimeter deep.
 TEST_F(MujocoEngine, AFingerThatIsTooDeepOnceClosedIsDiscarded) {
   TrialSettings settings = quick();
   settings.buried = 0.01e-3;
@@ -420,7 +420,7 @@ TEST_F(MujocoEngine, AConvexMeshIsHeldAsItsOutline) {
 }
 
 // The model `contacts` has nothing that could hold but the contacts of kernel 9. What the effort calls infinite slides: out of the
-// hand, or some millimetres until the same contacts meet other walls that hold it, as where a neck meets a cone.
+// hand, or some millimeters until the same contacts meet other walls that hold it, as where a neck meets a cone.
 TEST_F(MujocoEngine, WhatEffortCallsInfiniteIsNotHeldWhereItIs) {
   int infinite = 0;
   for (const GripInput& grip : sample_grips(scene_.vessels[2], 200, 3)) {

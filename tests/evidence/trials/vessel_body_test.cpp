@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vessel as the engine takes it: its form is that of the distance, its mass and its centre are those of the kernels.
+// The vessel as the engine takes it: its form is that of the distance, its mass and its center are those of the kernels.
 // sanitizers: none
 #include "evidence/trials/vessel_body.h"
 
@@ -225,7 +225,7 @@ TEST(VesselBody, AMeshHasTheInertiaOfItsTriangles) {
   expect_same_load(load_of(vessel_of_mesh("rod", turned_mesh(rod, 64, 1e-4), 2e-3)), full_cylinder(mass, 0.02, 0, 0.1), 6e-3);
 }
 
-TEST(VesselBody, TwoBodiesJoinedTurnAboutTheirCommonCentre) {
+TEST(VesselBody, TwoBodiesJoinedTurnAboutTheirCommonCenter) {
   const RigidLoad a{1, {0, 0.1, 0}, {}}, b{3, {0, 0.2, 0.04}, {}};
   const RigidLoad whole = joined(a, b);
   EXPECT_DOUBLE_EQ(whole.mass, 4);

@@ -58,7 +58,7 @@ TEST(DepthMap, TheLeastOfNineSeesPastABorder) {
   EXPECT_EQ(map.least_near({-0.995, 0.5}), DepthMap::NOTHING);
 }
 
-// Neighbours leave no gap and no pixel is lost: the area of a tessellated ball's shadow.
+// Neighbors leave no gap and no pixel is lost: the area of a tessellated ball's shadow.
 TEST(DepthMap, BordersRunRoundWhatIsCovered) {
   const TriangleMesh ball = icosphere(0.05, 4);
   const DepthMap map(ball.vertices, ball.triangles, 0.25e-3);

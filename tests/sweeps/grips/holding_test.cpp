@@ -87,7 +87,7 @@ TEST(Holding, ForcesOfAStateCarryTheVessel) {
   EXPECT_GT(held, 30);
 }
 
-// Two tips on a level line across the axis, the centre of mass on it: the hold force of kernel 7, at the weaker of the two.
+// Two tips on a level line across the axis, the center of mass on it: the hold force of kernel 7, at the weaker of the two.
 TEST(Holding, OfTwoTipsIsTheHoldForceOverTheWeaker) {
   const Scene scene = few_states();
   const GripReport report = held_report(scene, 0, beside(0.055));

@@ -74,7 +74,7 @@ TEST(MeshSurface, ABeakerIsSplitRoundItsBaseAndMouth) {
 
 TEST(MeshSurface, OpenAndDegenerateOnesHaveNormalsToo) {
   MeshBody body = body_of(open_hemisphere(0.05, 2));
-  body.triangles.push_back({0, 1, 0});  // without area, of no neighbour
+  body.triangles.push_back({0, 1, 0});  // without area, of no neighbor
   const SurfaceMesh surface = mesh_surface(body);
   expect_same_triangles(surface, body);
 }

@@ -131,7 +131,7 @@ TEST(GripMesh, LiquidIsClosedAndHasTheLiquidsVolume) {
   }
 }
 
-// Centre of mass and surface: the liquid leans the way the core says, and nothing is above the level plane.
+// Center of mass and surface: the liquid leans the way the core says, and nothing is above the level plane.
 TEST(GripMesh, LiquidLeansAsTheCoreSays) {
   Scene scene = scene_of({beaker3()});
   scene.liquid = LiquidData{1000, {1}, {}, Pour::away};

@@ -243,7 +243,7 @@ GripReport measured_report(const Scene& scene, std::size_t vessel, double height
   return report;
 }
 
-// A beaker of 80 x 110 mm: its centre of mass is on the axis, and the farthest points are on the rim or on the base's edge.
+// A beaker of 80 x 110 mm: its center of mass is on the axis, and the farthest points are on the rim or on the base's edge.
 TEST(Quality, IsInTheReport) {
   const Scene scene = three_beakers();
   const GripReport report = measured_report(scene, 0, 0.055);

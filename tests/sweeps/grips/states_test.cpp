@@ -26,7 +26,7 @@ TEST(GripStates, AProjectedPointTouchesToo) {
   EXPECT_STREQ(POINT_STYLES[static_cast<std::size_t>(PointState::projected)].name, "projected");
 }
 
-// In grey print the two that touch are alike, and dark beside the third; a drawing's shapes distinguish them.
+// In gray print the two that touch are alike, and dark beside the third; a drawing's shapes distinguish them.
 TEST(GripStates, TouchingIsDarkerThanFree) {
   const auto lightness = [](PointState state) {
     const auto& c = POINT_STYLES[static_cast<std::size_t>(state)].color;

@@ -81,7 +81,7 @@ TEST(GripSvg, HasTheWordsOfAScreenReader) {
   EXPECT_NE(svg.find("The thumb touches with 1 of its 4 points."), std::string::npos) << svg.substr(0, 1500);
 }
 
-// One unit is a millimetre, and the views agree with one another: the thumb-index line is as long as it is seen.
+// One unit is a millimeter, and the views agree with one another: the thumb-index line is as long as it is seen.
 TEST(GripSvg, ViewsAreToScale) {
   for (const Handedness handedness : {Handedness::right, Handedness::left}) {
     Scene scene = three_beakers();

@@ -22,7 +22,7 @@ namespace {
 
 using Place = std::array<double, REFINED_COORDINATES>;
 
-TEST(Refine, ABoxEndsHalfWayToTheNeighboursAndNeverBeyondTheAxis) {
+TEST(Refine, ABoxEndsHalfWayToTheNeighborsAndNeverBeyondTheAxis) {
   Scene scene = fake_scene();
   scene.vessels[0].mass = 0.1;  // with its mass off the axis, so that azimuth matters
   scene.vessels[0].center_of_mass = {0.01, 0, 0};
@@ -69,7 +69,7 @@ TEST(Refine, WhatHasOneValueOrChangesNothingStays) {
   }
 }
 
-TEST(Refine, HeightsInFractionsAreMovedInTheVesselsMetres) {
+TEST(Refine, HeightsInFractionsAreMovedInTheVesselsMeters) {
   Scene scene = fake_scene();
   scene.grips.height_is_fraction = true;
   scene.vessels[1].base = 0.02;

@@ -140,7 +140,7 @@ TEST_F(MeshVessel, HeightsCountFromTheLowestPoint) {
   const Scene scene = loaded({vessel});
   EXPECT_NEAR(scene.vessels[0].base, -0.03, 1e-8);
   EXPECT_NEAR(scene.vessels[0].height, 0.03, 1e-8);
-  // the farther of base and top from the middle, where the centre of mass is
+  // the farther of base and top from the middle, where the center of mass is
   const VesselConstants constants = make_core_evaluator(scene)->constants(0);
   EXPECT_NEAR(constants.torque_reference, constants.mass * scene.gravity * 0.03, 1e-6);
 }

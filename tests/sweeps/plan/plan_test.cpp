@@ -114,7 +114,7 @@ TEST(Plan, AzimuthIsLeftOutWhereNothingDependsOnIt) {
   scene.vessels[1].center_of_mass = {0, 0.05, 0};
   EXPECT_EQ(Plan(scene, false).copies(), 3u) << "a given mass on the axis";
   scene.vessels[1].center_of_mass = {0, 0.05, 1e-3};
-  EXPECT_EQ(Plan(scene, false).copies(), 1u) << "a centre of mass off the axis";
+  EXPECT_EQ(Plan(scene, false).copies(), 1u) << "a center of mass off the axis";
   scene.vessels[1].mass.reset();
   scene.vessels[1].mesh = MeshData{};
   EXPECT_EQ(Plan(scene, false).copies(), 1u) << "a mesh";

@@ -44,7 +44,7 @@ apart_mm = 0
 
 // 3.4 kg empty: a grip holds it then, and full none does.
 const std::string LIGHTER = edited(HEAVY, "wall_mm = 20", "wall_mm = 7");
-// Held far above its centre of mass: up to some tilt.
+// Held far above its center of mass: up to some tilt.
 const std::string AT_THE_TOP =
     edited(edited(edited(HEAVY, "wall_mm = 20", "wall_mm = 4"), "{ from = 0.3, to = 0.9, count = 4 }", "[0.8, 0.9]"),
            "deg = [0, 45, 90]", "deg = [0, 10, 20, 45, 90]");

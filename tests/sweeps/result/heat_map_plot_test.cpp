@@ -39,7 +39,7 @@ std::string drawn(const HeatMapPicture& picture) {
   return files[0].svg;
 }
 
-// Left, bottom, right and top of every filled rectangle; runs of cells of one colour above one another are one.
+// Left, bottom, right and top of every filled rectangle; runs of cells of one color above one another are one.
 std::vector<std::array<double, 4>> cells_of(const std::string& svg, const std::string& attribute) {
   std::vector<std::array<double, 4>> cells;
   const std::regex path("<path class=\"" + attribute + "[^>]* d=\"([^\"]*)\""),
@@ -134,7 +134,7 @@ TEST(HeatMapPlot, OneCellIsAMapToo) {
   EXPECT_EQ(cells_of(drawn({"a.svg", "a", &map, 0.11}), "cell\"").size(), 1u);
 }
 
-TEST(HeatMapPlot, WhatIsNoNumberHasNoColour) {
+TEST(HeatMapPlot, WhatIsNoNumberHasNoColor) {
   HeatMap map = small_map();
   for (const double score : {HUGE_VAL, -HUGE_VAL, -1.0}) {
     std::vector<double> scores(28, score);

@@ -146,10 +146,10 @@ TEST(ResultFile, SobolPointsComeWithTheirAxes) {
     EXPECT_EQ(roll[i], setup.plan.grip(0, i).roll);
     EXPECT_EQ(height[i] * 0.14, setup.plan.grip(1, i).height);
   }
-  const auto in_metres = read_values(folder / "a.nc", "height");
-  ASSERT_EQ(in_metres.size(), 2 * 1001u);
+  const auto in_meters = read_values(folder / "a.nc", "height");
+  ASSERT_EQ(in_meters.size(), 2 * 1001u);
   for (std::size_t v = 0; v < 2; ++v)
-    for (std::size_t i = 0; i < 1001; ++i) EXPECT_EQ(in_metres[v * 1001 + i], setup.plan.grip(v, i).height);
+    for (std::size_t i = 0; i < 1001; ++i) EXPECT_EQ(in_meters[v * 1001 + i], setup.plan.grip(v, i).height);
 }
 
 TEST(ResultFile, EndingHoldsTheBestAndTheTimes) {
