@@ -32,7 +32,7 @@ Real dot6(const Six& a, const Six& b) {
 
 Vec3 first(const std::array<Real, 6>& six) { return Vec3(six[0], six[1], six[2]); }
 Vec3 second(const std::array<Real, 6>& six) { return Vec3(six[3], six[4], six[5]); }
-std::array<Real, 6> joined(Vec3 a, Vec3 b) { return {a.x, a.y, a.z, b.x, b.y, b.z}; }
+std::array<Real, 6> stack(Vec3 a, Vec3 b) { return {a.x, a.y, a.z, b.x, b.y, b.z}; }
 
 // How a contact moves along a direction (a, b), b times the unit of length:
 //   v = a + b x p,  s = sqrt(|v - (n.v) n|^2 + gamma^2 (b.n)^2)
@@ -70,7 +70,7 @@ ContactForce pressing_force(Vec3 arm, Vec3 normal, Real friction, Real gamma, co
 
 std::array<Real, 6> pressed(Vec3 arm, Vec3 normal, Real friction, Real gamma, const std::array<Real, 6>& direction) {
   const ContactForce unit = pressing_force(arm, normal, friction, gamma, direction);
-  return joined(unit.force, glm::cross(arm, unit.force) + unit.torsion * normal);
+  return stack(unit.force, glm::cross(arm, unit.force) + unit.torsion * normal);
 }
 
 EffortSolver::EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center)
@@ -108,7 +108,7 @@ EffortSolver::Vec6 EffortSolver::wanted_for(const Wrench& load) const {
     const Real kept = counts ? std::max(std::abs(turn), least) : Real(0);
     moment += ((turn > 0 ? kept : -kept) - turn) * line_;
   }
-  return joined(-load.force / unit_force_, -moment / (unit_force_ * unit_length_));
+  return stack(-load.force / unit_force_, -moment / (unit_force_ * unit_length_));
 }
 
 Vec3 EffortSolver::arm(const ContactPoint& contact) const { return (contact.place - center_) / unit_length_; }
@@ -440,7 +440,7 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
   }
   if (is_certain) answer.low = NEVER;
   const Real largest = std::max(glm::length(first(best)), glm::length(second(best)));
-  answer.escape = joined(-first(best) / largest, -second(best) / (largest * unit_length_));
+  answer.escape = stack(-first(best) / largest, -second(best) / (largest * unit_length_));
   return answer;
 }
 

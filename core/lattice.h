@@ -15,7 +15,7 @@ namespace wholehand {
 
 constexpr std::size_t lattice_words(std::size_t samples, bool halves) { return halves ? (samples + 1) / 2 : samples; }
 // The word that holds a sample.
-constexpr std::size_t word_of(std::size_t sample, bool halves) { return halves ? sample / 2 : sample; }
+constexpr std::size_t word_index(std::size_t sample, bool halves) { return halves ? sample / 2 : sample; }
 
 // A distance, m, as a half.
 inline std::uint16_t half_of(float distance) { return half_bits(distance * static_cast<float>(1 / HALF_UNIT)); }

@@ -40,8 +40,10 @@ struct Spread {
   double mean = 0, person = 0, grasp = 0;
 };
 
-using Traits = std::array<double, TRAIT_COUNT>;
-constexpr double of(const Traits& traits, Trait trait) { return traits[static_cast<std::size_t>(trait)]; }
+struct Traits : std::array<double, TRAIT_COUNT> {
+  using std::array<double, TRAIT_COUNT>::operator[];
+  constexpr double operator[](Trait trait) const { return (*this)[static_cast<std::size_t>(trait)]; }
+};
 
 // Where the numbers of a trait come from. None is fitted.
 enum class Origin { published, mean_published, ours };

@@ -300,7 +300,7 @@ PreparedLattice prepare_lattice(const PreparedVessel& prepared, int samples, boo
   lattice.origin = {-widest - 2 * lattice.spacing, low - 2 * lattice.spacing, -widest - 2 * lattice.spacing};
   const std::size_t plane = static_cast<std::size_t>(lattice.nx) * lattice.ny, all = plane * lattice.nz;
   std::vector<std::uint32_t> words(lattice_words(all, halves));
-  const auto store = [&](std::size_t at, float value) { words[word_of(at, halves)] |= sample_bits(value, at, halves); };
+  const auto store = [&](std::size_t at, float value) { words[word_index(at, halves)] |= sample_bits(value, at, halves); };
   const auto at_place = [&](int axis, int i) { return lattice.origin[axis] + lattice.spacing * i; };
   for (int k = 0; k < lattice.nz; ++k)
     for (int j = 0; j < lattice.ny; ++j)

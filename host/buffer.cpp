@@ -122,7 +122,7 @@ Buffer::Buffer(Buffer&&) noexcept = default;
 Buffer& Buffer::operator=(Buffer&&) noexcept = default;
 
 std::size_t Buffer::size() const { return state_ ? state_->size : 0; }
-bool Buffer::fast_to_read() const { return state_ && state_->cached; }
+bool Buffer::reads_fast() const { return state_ && state_->cached; }
 std::span<std::byte> Buffer::mapped() const {
   return state_ && state_->mapped ? std::span(state_->mapped, state_->size) : std::span<std::byte>();
 }

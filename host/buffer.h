@@ -40,7 +40,7 @@ class Buffer {
   }
 
   std::size_t size() const;             // bytes asked for
-  bool fast_to_read() const;            // mapped, and reading the mapping is fast
+  bool reads_fast() const;              // mapped, and reading the mapping is fast
   std::span<std::byte> mapped() const;  // empty where the host does not reach it
 
   // Copies to and from the start of the buffer, any kind of it; done on return. For what is small or rare: chunks have stream.h.

@@ -65,7 +65,7 @@ Slot::Slot(DeviceState& device, const StreamRequest& request, std::size_t capaci
   for (const StreamOutput& output : request.outputs) {
     Pair& pair = outputs_.emplace_back();
     pair.on_device = Buffer(device, output.bytes_per_item * capacity + output.fixed_bytes, Memory::device);
-    if (const std::size_t kept = kept_bytes(output, capacity); kept > 0 && !pair.on_device.fast_to_read()) {
+    if (const std::size_t kept = kept_bytes(output, capacity); kept > 0 && !pair.on_device.reads_fast()) {
       pair.on_host = Buffer(device, kept, Memory::readback);
       downloads = true;
     }

@@ -53,9 +53,9 @@ void add_check_command(CLI::App& app, Action& action) {
           throw check_error(error);
         }
       });
-      for (const std::string& line : check_warnings(scene)) say_note(line);
-      say_cavity_notes(scene);
-      if (const std::string note = idle_strength_note(scene); !note.empty()) say_note(note);
+      for (const std::string& line : check_warnings(scene)) print_note(line);
+      print_cavity_notes(scene);
+      if (const std::string note = idle_strength_note(scene); !note.empty()) print_note(note);
       const CheckReport report = check_scene(scene, options);
       print(arguments->json ? check_json(report) : check_text(report));
       return verdict_of(report).holds ? ExitCode::done : ExitCode::no;

@@ -29,8 +29,8 @@ ExitCode compare(const CompareArguments& arguments) {
     check_output_path(arguments.page);
     check_overwrites_page(arguments.page, is_same_file(arguments.page, arguments.b) ? arguments.b : arguments.a);
   }
-  std::string trouble;  // with meshes, which nothing here needs
-  const Scene scene_a = scene_of_result(a, trouble), scene_b = scene_of_result(b, trouble);
+  std::string mesh_error;  // with meshes, which nothing here needs
+  const Scene scene_a = scene_of_result(a, mesh_error), scene_b = scene_of_result(b, mesh_error);
   const std::vector<ComparePart> parts = compare_results(a, scene_a, b, scene_b);
   print(comparison_text(parts));
   if (arguments.page.empty()) return ExitCode::done;

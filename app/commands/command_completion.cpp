@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* SHELLS = "bash zsh fish";
 
-std::vector<std::string> words_of(const std::string& text) {
+std::vector<std::string> split_words(const std::string& text) {
   std::istringstream stream(text);
   return {std::istream_iterator<std::string>(stream), {}};
 }
@@ -30,7 +30,7 @@ std::vector<std::string> offered_words(CLI::Option& option) {
   try {
     for (int k = 0;; ++k) {
       const std::string& name = option.get_validator(k)->get_name();
-      if (name.starts_with(OFFERED)) return words_of(name.substr(OFFERED.size()));
+      if (name.starts_with(OFFERED)) return split_words(name.substr(OFFERED.size()));
     }
   } catch (const CLI::OptionNotFound&) {  // which ends the validators
     return {};

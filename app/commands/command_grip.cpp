@@ -218,10 +218,10 @@ ExitCode grip(const GripArguments& given) {
   asked.grips.hand_scale = {{input.hand_scale}};
   load_meshes(asked, [&] { return largest_buffer(arguments.on); });  // lattices as wide as this hand needs
   scene.vessels = asked.vessels;
-  say_cavity_notes(scene);
+  print_cavity_notes(scene);
   // with --tilt-deg the efforts of these tilts are there
-  if (const std::string note = idle_strength_note(scene); !note.empty() && axes.tilts.empty()) say_note(note);
-  say_float_warnings(asked, precision);
+  if (const std::string note = idle_strength_note(scene); !note.empty() && axes.tilts.empty()) print_note(note);
+  print_float_warnings(asked, precision);
   GripReport report;
   {
     const DriverWatch watch(arguments.on);
@@ -231,7 +231,7 @@ ExitCode grip(const GripArguments& given) {
   if (!arguments.json) add_held_share(report, scene, vessel);
   if (arguments.quality) add_quality(report, scene, vessel);
   write_drawings(arguments, scene, vessel, report);
-  if (arguments.json && arguments.on != "core") say_note("on " + report.device);
+  if (arguments.json && arguments.on != "core") print_note("on " + report.device);
   print(arguments.json ? grip_json(report) + "\n" : grip_verdict(scene, report) + "\n" + grip_table(report));
   for (const std::string& path : {arguments.glb, arguments.svg}) {
     if (!path.empty() && !arguments.json) print(fmt::format("wrote {}\n", one_line(path)));

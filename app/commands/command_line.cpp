@@ -38,7 +38,7 @@ int report(const Program& program, ExitCode code, const std::string& line) {
   std::fflush(stdout);
   if (program.on_failure) program.on_failure(code, line);
   if (program.is_silent) return to_int(code);
-  say_note(line);
+  print_note(line);
   return to_int(code);
 }
 
@@ -73,9 +73,9 @@ int run(int argc, char** argv, const Program& program) {
   program.add_commands(app, action);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& wish) {  // --help, --version
+  } catch (const CLI::Success& answer) {  // --help, --version
     std::ostringstream text;
-    app.exit(wish, text);
+    app.exit(answer, text);
     if (!program.is_silent) print(text.str());
     finish_output();
     return to_int(ExitCode::done);
@@ -90,7 +90,7 @@ int run(int argc, char** argv, const Program& program) {
   finish_output();
   // with the validation layer on (WHOLEHAND_VALIDATION=1) a message is a failure
   const auto messages = host::take_validation_messages();
-  for (const std::string& message : messages) say_note("validation: " + message);
+  for (const std::string& message : messages) print_note("validation: " + message);
   if (!messages.empty()) return to_int(ExitCode::failure);
   return to_int(code);
 }
@@ -102,7 +102,7 @@ int run_program(int argc, char** argv, const Program& program) {
     prepare_output();
     return run(argc, argv, program);
   } catch (const Error& error) {
-    return report(program, error.code, line_of(error));
+    return report(program, error.code, error_line(error));
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::resource_unavailable_try_again)
       return report(program, ExitCode::failure,

@@ -40,20 +40,20 @@ struct RankArguments {
 // A result with what its ranking needs; stays where it is.
 struct RankedResult {
   explicit RankedResult(const std::string& path)
-      : result(path), scene(read_scene(result, trouble)), plan(scene, keeps_vectors(result.variables())) {
+      : result(path), scene(read_scene(result, mesh_error)), plan(scene, keeps_vectors(result.variables())) {
     result.use(scene, plan);
   }
   RankedResult(const RankedResult&) = delete;
   RankedResult& operator=(const RankedResult&) = delete;
 
-  static Scene read_scene(const SweepResult& result, std::string& trouble) {
-    Scene scene = scene_of_result(result, trouble);
+  static Scene read_scene(const SweepResult& result, std::string& mesh_error) {
+    Scene scene = scene_of_result(result, mesh_error);
     set_heights(result, scene);
     return scene;
   }
 
   SweepResult result;
-  std::string trouble;  // with its meshes
+  std::string mesh_error;  // with its meshes
   Scene scene;
   Plan plan;
   Ranking ranking{};
@@ -87,7 +87,7 @@ void check_list_file(const RankArguments& arguments, const std::string& of_resul
 
 // Scores of several results compare only where one rule made them.
 void check_one_rule(const RankedResult& first, const RankedResult& other, const std::string& weights) {
-  const auto rules = rules_of(other.scene), wanted = rules_of(first.scene);
+  const auto rules = scene_rules(other.scene), wanted = scene_rules(first.scene);
   auto is_shared = shared_rules(first.scene, other.scene);
   is_shared[RULE_WEIGHTS] = read_weights(weights, first.scene) == read_weights(weights, other.scene);
   for (std::size_t k = 0; k < RULE_COUNT; ++k) {
@@ -102,7 +102,7 @@ void check_one_rule(const RankedResult& first, const RankedResult& other, const 
 // By which one rule several results are ranked together; empty for one result.
 std::string rule_line(const RankedResults& results, const RankArguments& arguments, RankBy by) {
   if (results.size() < 2) return "";
-  const auto rules = rules_of(results.front()->scene);
+  const auto rules = scene_rules(results.front()->scene);
   std::string key = arguments.list.by.empty() ? (by == RankBy::robust ? "robust" : "score") : arguments.list.by;
   if (!arguments.weights.empty()) key += fmt::format(" with weights {}", one_line(arguments.weights));
   std::vector<std::string> shared;
@@ -123,7 +123,7 @@ std::vector<std::string> unheld_lines_of(const RankedResult& one) {
   const std::size_t lists = one.ranking.lists.size();
   bool is_any = false;
   for (std::size_t list = 0; list < lists; ++list) is_any = is_any || none_holds(one.ranking, list);
-  if (!is_any || !one.trouble.empty() || !one.result.find("worst_effort") || !one.result.find("score"))
+  if (!is_any || !one.mesh_error.empty() || !one.result.find("worst_effort") || !one.result.find("score"))
     return std::vector<std::string>(lists);
   const std::shared_ptr<const Evaluator> core = make_core_evaluator(one.scene);
   const Ranking least_bad = rank_grips(one.result, one.scene, one.plan, {"", {}, 1, 0, 0, true}, [&] { return core; });
@@ -247,16 +247,16 @@ ExitCode rank(const RankArguments& arguments) {
     request.apart =
         arguments.apart.empty() ? one->scene.output.apart : parse_quantity(arguments.apart, "--apart-mm", ranges::APART);
     const auto open_core = [&]() -> std::shared_ptr<const Evaluator> {
-      if (!one->trouble.empty() && (request.apart > 0 || request.by == RankBy::robust) && glb == 0)
+      if (!one->mesh_error.empty() && (request.apart > 0 || request.by == RankBy::robust) && glb == 0)
         throw usage_error(fmt::format("{}: {}; {}--apart-mm 0 lists grips without it, however near they are to each other",
-                                      one->result.path(), one->trouble,
+                                      one->result.path(), one->mesh_error,
                                       request.by == RankBy::robust ? "--rank-by score with " : ""));
-      if (!one->trouble.empty()) throw usage_error(one->result.path() + ": " + one->trouble);
+      if (!one->mesh_error.empty()) throw usage_error(one->result.path() + ": " + one->mesh_error);
       return make_core_evaluator(one->scene);
     };
     if (glb > 0) core = open_core();
     one->ranking = rank_grips(one->result, one->scene, one->plan, request, open_core);
-    if (!one->ranking.note.empty()) say_note(one->ranking.note);
+    if (!one->ranking.note.empty()) print_note(one->ranking.note);
     if (!arguments.least_bad) one->unheld = unheld_lines_of(*one);
   }
   const std::vector<JointList> lists = joint_lists(results, request);
@@ -267,7 +267,7 @@ ExitCode rank(const RankArguments& arguments) {
   if (core) {
     const BestGlb written = write_best_glb(first.scene, first.plan, core, first.ranking.lists, glb, names);
     files.insert(files.end(), written.files.begin(), written.files.end());
-    for (const std::string& line : written.notes) say_note(line);
+    for (const std::string& line : written.notes) print_note(line);
   }
   print(fmt::format("\nwrote {}\n", one_line(joined(files, ", "))));
   return ExitCode::done;

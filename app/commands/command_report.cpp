@@ -28,9 +28,9 @@ ExitCode report_sweep(const PageArguments& arguments) {
   check_output_path(page);
   check_overwrites_page(page, arguments.result);
   result.check_all();  // also what the page does not show: it says that the file's numbers agree
-  std::string trouble;
-  const Scene scene = scene_of_result(result, trouble);
-  const std::string html = report_page(result, scene, trouble, arguments.list);
+  std::string mesh_error;
+  const Scene scene = scene_of_result(result, mesh_error);
+  const std::string html = report_page(result, scene, mesh_error, arguments.list);
   write_whole_file(page, html, false);
   print(fmt::format("wrote {} ({})\n", one_line(page), readable_bytes(static_cast<double>(html.size()))));
   return ExitCode::done;

@@ -46,11 +46,11 @@ ExitCode report_recording(const SessionArguments& arguments) {
     make_output_folder(arguments.folder);
     check_folder_files(arguments.folder, "session", TABLES, {&PICTURE, 1});
   }
-  if (!recording.note.empty()) say_note(recording.note);
+  if (!recording.note.empty()) print_note(recording.note);
   const SessionReport report = report_session(recording);
-  const std::string trouble = arguments.folder.empty() ? "" : write_session_files(arguments.folder, recording, report);
+  const std::string error = arguments.folder.empty() ? "" : write_session_files(arguments.folder, recording, report);
   print(arguments.json ? session_json(report) + "\n" : session_table(report));
-  if (!trouble.empty()) throw failure_error("session: " + trouble);
+  if (!error.empty()) throw failure_error("session: " + error);
   return ExitCode::done;
 }
 

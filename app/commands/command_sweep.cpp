@@ -49,7 +49,7 @@ ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
   options.explain = arguments.explain;
   options.refine = !arguments.no_refine;
   if (arguments.shards || !arguments.shard.empty()) options.shards = arguments.shard;
-  options.warn = say_float_warnings;
+  options.warn = print_float_warnings;
   prepare_vulkan_environment(options.on);
   return run([&arguments] { return read_scene_file(find_scene(arguments.scene)); }, options);
 }

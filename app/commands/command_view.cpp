@@ -60,7 +60,7 @@ void check_is_recording(const std::string& path) {
 
 void view_recording(const std::string& path, int port) {
   Recording recording = read_recording(path);
-  if (!recording.note.empty()) say_note(recording.note);
+  if (!recording.note.empty()) print_note(recording.note);
   Scene scene = scene_of_recording(recording.info);
   follow_moved_scene(scene, path);
   load_meshes(scene);
@@ -97,7 +97,7 @@ void view_result(const std::string& path, const std::string& list_file, int port
     }
   }
   const GripsView view(scene, grips, notes);
-  for (const std::string& note : notes) say_note("view: " + note);
+  for (const std::string& note : notes) print_note("view: " + note);
   serve_view(view.content(file_name(path), scene_axes(scene, grips.empty() ? 0 : grips.front().vessel)), port, false);
 }
 

@@ -74,7 +74,7 @@ std::string now_iso() {
   return {text, size};
 }
 
-RecordingInfo info_of(const Scene& scene, const GripperLimits& gripper, const LiveOptions& options) {
+RecordingInfo recording_info(const Scene& scene, const GripperLimits& gripper, const LiveOptions& options) {
   RecordingInfo info;
   info.scene_name = scene.name;
   info.scene_file = scene.file;
@@ -161,14 +161,14 @@ class LiveRun {
   ExitCode run() {
     InterruptGuard interrupt;
     const PanicGuard panic(*gripper_, watch_.get());
-    interrupt.on_another(end_by_signal);  // at once, and not before the force is gone
+    interrupt.on_second_signal(end_by_signal);  // at once, and not before the force is gone
     Board board(scene_);
     open_view();  // first: a taken port leaves no recording behind
     std::unique_ptr<RecordingWriter> writer;
     if (!options_.record.empty())
-      writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_), RECORD);
-    tell_advice_place();
-    tell_address();
+      writer = std::make_unique<RecordingWriter>(options_.record, recording_info(scene_, gripper_->limits(), options_), RECORD);
+    report_advice_place();
+    report_address();
     std::optional<DisplayLoop> display;
     if (!displays_.empty()) display.emplace(session_->live(), displays_, advice_source());
     const auto look = [&](std::span<const Tick> ticks) {
@@ -182,12 +182,12 @@ class LiveRun {
     const bool is_recorded = finish_recording(recorder, report);
     if (display) display->stop();
     if (view_) view_->end(end_name(report.fault));
-    tell_trouble(recorder);
-    tell_advice(board);
+    report_recording_error(recorder);
+    report_advice(board);
     board.show(options_.json);
     show_status("");
-    tell(report, recorder, is_recorded, true);
-    if (watch_ && !watch_->comes_back()) leave_watch(report);
+    print_summary(report, recorder, is_recorded, true);
+    if (watch_ && !watch_->returns_in_time()) leave_watch(report);
     if (is_force_left(report) || (report.fault != Fault::none && report.fault != Fault::interrupted))
       throw failure_error(fault_words(report));
     if (report.fault == Fault::interrupted) return ExitCode::interrupted;
@@ -214,8 +214,8 @@ class LiveRun {
   }
 
   // Prints where the advice is computed, once nothing can be refused any more.
-  void tell_advice_place() const {
-    if (advice_) say_note("live: advice is computed on " + advice_->tally().place);
+  void report_advice_place() const {
+    if (advice_) print_note("live: advice is computed on " + advice_->tally().place);
   }
 
   std::function<std::shared_ptr<const Advice>()> advice_source() const {
@@ -255,7 +255,7 @@ class LiveRun {
     }
     load_meshes(scene_);
     check_places();
-    say_cavity_notes(scene_);
+    print_cavity_notes(scene_);
     if (recording) scene_.live.rate = recording->info.rate;
     if (options_.rate > 0) scene_.live.rate = options_.rate;
     open_advice();
@@ -269,7 +269,7 @@ class LiveRun {
                                             Participant(scene_.people, options_.seed, *options_.person, Experiment::live), shown)
                  : shown         ? open_sim(scene_, options_.seed, shown)
                          : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get(),
-                                        [](const std::string& line) { say_note("live: " + line); });
+                                        [](const std::string& line) { print_note("live: " + line); });
     }
     const double most = gripper_->limits().rate;
     if (!is_replay && most > 0 && scene_.live.rate > most) {
@@ -314,7 +314,7 @@ class LiveRun {
     stream_ = std::make_unique<OscStream>(target, session_->live());
     displays_.push_back(stream_.get());
     if (stream_->note().empty()) return;
-    say_note("live: " + stream_->note());
+    print_note("live: " + stream_->note());
     notes_.push_back(stream_->note());
   }
 
@@ -336,7 +336,7 @@ class LiveRun {
   }
 
   // Before the session starts, so that it is seen from its beginning.
-  void tell_address() {
+  void report_address() {
     if (view_) window_ = std::make_unique<BrowserWindow>(view_->address(), options_.json);
   }
 
@@ -361,16 +361,16 @@ class LiveRun {
       is_over = true;
     });
     for (const std::string& note : permitted.get_future().get()) {
-      say_note("live: " + note);
+      print_note("live: " + note);
       notes_.push_back(note);
     }
     int lost = 0;
     while (!is_over) {
       std::this_thread::sleep_for(LOOK);
-      tell_trouble(recorder);
-      tell_calls();
-      tell_news();
-      tell_advice(board);
+      report_recording_error(recorder);
+      report_stuck_calls();
+      report_warnings();
+      report_advice(board);
       lost = watch_ && watch_->lasted() > CALL_LOST ? lost + 1 : 0;
       if (lost == LOST_LOOKS) give_up(interrupt, recorder, board);
       board.show(options_.json);
@@ -381,11 +381,11 @@ class LiveRun {
       }
     }
     haptic.join();
-    tell_calls();
+    report_stuck_calls();
     if (watch_ && watch_->count() > 1)
       notes_.push_back(fmt::format("{} calls of the device did not return within {:g} ms", watch_->count(), CALL_PATIENCE * 1e3));
-    tell_news();
-    for (std::string& line : gripper_->remarks()) notes_.push_back(std::move(line));
+    report_warnings();
+    for (std::string& line : gripper_->notes_for_report()) notes_.push_back(std::move(line));
   }
 
   // By the haptic thread, which is watched, as it may not return from this either.
@@ -402,25 +402,25 @@ class LiveRun {
     const std::optional<LoopReport> ending = loop_->ending();
     LoopReport report = ending.value_or(LoopReport{});
     if (!ending) report.fault = Fault::late;
-    if (report.let_go == LetGo::not_asked || !ending) {
-      const ForceSize last = gripper_->noted();
-      report.let_go = watch_->outcome();
+    if (report.release == ReleaseResult::not_attempted || !ending) {
+      const ForceSize last = gripper_->last_written_force();
+      report.release = watch_->outcome();
       report.force = {{last.arm, 0, 0}, last.grip};
     }
-    for (std::string& line : gripper_->remarks()) notes_.push_back(std::move(line));
+    for (std::string& line : gripper_->notes_for_report()) notes_.push_back(std::move(line));
     show_status("");
-    if (ending) say_note(fault_words(report));
-    say_note(fmt::format(
+    if (ending) print_note(fault_words(report));
+    print_note(fmt::format(
         "live: a call of the device has not returned for {:g} s, and {}", CALL_LOST,
         ending ? "the program ends without it" : "the session is given up; " + force_words(report, gripper_->limits().watchdog)));
     const bool is_recorded = finish_recording(recorder, report);
     if (view_) view_->end(end_name(report.fault));
-    tell_trouble(recorder);
+    report_recording_error(recorder);
     if (!ending) {  // what the loop knows is still its own
       report.last = board.last();
       report.ticks = board.count();
     }
-    tell(report, recorder, is_recorded, ending.has_value());
+    print_summary(report, recorder, is_recorded, ending.has_value());
     std::fflush(stdout);
     std::fflush(stderr);
     _exit(static_cast<int>(ExitCode::failure));
@@ -428,8 +428,8 @@ class LiveRun {
 
   // The second thread is lost in a call of the device, and destructors would wait for it without end: reports all and ends the process.
   [[noreturn]] void leave_watch(const LoopReport& report) {
-    say_note(fault_words(report));
-    say_note(
+    print_note(fault_words(report));
+    print_note(
         fmt::format("live: a second call of the device has not returned for {:g} s, and the program ends without it", CALL_LOST));
     std::fflush(stdout);
     std::fflush(stderr);
@@ -447,30 +447,30 @@ class LiveRun {
 
   void note(const std::string& line) {
     show_status("");
-    say_note("live: " + line);
+    print_note("live: " + line);
     if (options_.json) notes_.push_back(line);  // the summary in words does not say it again
   }
 
-  void tell_trouble(Recorder& recorder) {
-    if (const auto trouble = recorder.trouble()) note(*trouble);
+  void report_recording_error(Recorder& recorder) {
+    if (const auto error = recorder.take_error()) note(*error);
   }
 
-  void tell_calls() {
-    if (const auto news = watch_ ? watch_->news() : std::nullopt) note(*news);
+  void report_stuck_calls() {
+    if (const auto warning = watch_ ? watch_->take_warning() : std::nullopt) note(*warning);
   }
 
-  void tell_advice(Board& board) {
+  void report_advice(Board& board) {
     if (!advice_) return;
-    for (const std::string& line : advice_->news()) note(line);
+    for (const std::string& line : advice_->take_warnings()) note(line);
     board.advise(advice_->lines(), advice_->newest().get());
   }
 
-  void tell_news() {
-    if (const auto news = gripper_->news()) note(*news);
+  void report_warnings() {
+    if (const auto warning = gripper_->take_warning()) note(*warning);
   }
 
   // `has_times`: in `report`; false where the loop still has them.
-  void tell(const LoopReport& report, const Recorder& recorder, bool is_recorded, bool has_times) {
+  void print_summary(const LoopReport& report, const Recorder& recorder, bool is_recorded, bool has_times) {
     LiveSummary summary{scene_, gripper_->limits(), report,     0, has_times && !options_.no_clock,
                         notes_, recorder.place(),   is_recorded};
     summary.seconds = static_cast<double>(report.last.number) / scene_.live.rate;

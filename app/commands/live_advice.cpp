@@ -20,7 +20,7 @@ std::string default_advice_device() {
   }
 }
 
-std::optional<std::string> AdviceTeller::tell(const Advice& advice) {
+std::optional<std::string> AdviceNarrator::narrate(const Advice& advice) {
   const bool is_new = advice.vessel != vessel_ || advice.is_held != is_held_;
   const std::string words = advice_words(advice);
   if (is_new && advice.vessel >= 0 && words.empty()) return std::nullopt;  // it may have some later
@@ -31,7 +31,7 @@ std::optional<std::string> AdviceTeller::tell(const Advice& advice) {
                      scene_.vessels[static_cast<std::size_t>(advice.vessel)].name, words);
 }
 
-LiveAdvice::LiveAdvice(const Scene& scene, const Options& options) : teller_(scene) {
+LiveAdvice::LiveAdvice(const Scene& scene, const Options& options) : narrator_(scene) {
   try {
     open(scene, options);
   } catch (const Error& error) {
@@ -63,26 +63,26 @@ void LiveAdvice::look(std::span<const Tick> ticks) {
 void LiveAdvice::step(const Tick& tick) {
   if (!stepped_) return;
   stepped_->look(tick);
-  tell_newest();
+  narrate_newest();
 }
 
 std::shared_ptr<const Advice> LiveAdvice::newest() const { return loop_ ? loop_->newest() : stepped_->newest(); }
 
-void LiveAdvice::tell_newest() {
+void LiveAdvice::narrate_newest() {
   const std::shared_ptr<const Advice> now = newest();
   const std::lock_guard lock(mutex_);
   if (!now || now == told_) return;
   told_ = now;
-  if (std::optional<std::string> line = teller_.tell(*now)) lines_.push_back(std::move(*line));
+  if (std::optional<std::string> line = narrator_.narrate(*now)) lines_.push_back(std::move(*line));
 }
 
 std::vector<std::string> LiveAdvice::lines() {
-  if (loop_) tell_newest();
+  if (loop_) narrate_newest();
   const std::lock_guard lock(mutex_);
   return std::exchange(lines_, {});
 }
 
-std::vector<std::string> LiveAdvice::news() { return loop_ ? loop_->news() : stepped_->news(); }
+std::vector<std::string> LiveAdvice::take_warnings() { return loop_ ? loop_->take_warnings() : stepped_->take_warnings(); }
 
 AdviceTally LiveAdvice::tally() const { return loop_ ? loop_->tally() : stepped_->tally(); }
 

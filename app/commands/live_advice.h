@@ -18,11 +18,11 @@ namespace wholehand {
 std::string default_advice_device();
 
 // A line for each thing that begins: a vessel that the hand comes near to, a grasp. It comes once there are words.
-class AdviceTeller {
+class AdviceNarrator {
  public:
-  explicit AdviceTeller(const Scene& scene) : rate_(scene.live.rate), scene_(scene) {}
+  explicit AdviceNarrator(const Scene& scene) : rate_(scene.live.rate), scene_(scene) {}
   // Nothing: it is still the same vessel, free or held as before, or there is nothing to advise.
-  std::optional<std::string> tell(const Advice& advice);
+  std::optional<std::string> narrate(const Advice& advice);
 
  private:
   double rate_;
@@ -49,17 +49,17 @@ class LiveAdvice {
   // From any thread.
   std::shared_ptr<const Advice> newest() const;
   std::vector<std::string> lines();  // what has begun since the last call
-  std::vector<std::string> news();
+  std::vector<std::string> take_warnings();
   AdviceTally tally() const;
 
  private:
   void open(const Scene& scene, const Options& options);
-  void tell_newest();
+  void narrate_newest();
 
   std::unique_ptr<AdviceLoop> loop_;  // one of these two
   std::unique_ptr<SteppedAdvice> stepped_;
   std::mutex mutex_;  // of the next three
-  AdviceTeller teller_;
+  AdviceNarrator narrator_;
   std::vector<std::string> lines_;
   std::shared_ptr<const Advice> told_;
 };

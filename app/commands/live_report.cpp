@@ -168,11 +168,13 @@ std::string live_json(const LiveSummary& summary) {
   return json_text(json, 2) + "\n";
 }
 
-bool is_force_left(const LoopReport& report) { return report.let_go == LetGo::not_taken || report.let_go == LetGo::not_asked; }
+bool is_force_left(const LoopReport& report) {
+  return report.release == ReleaseResult::refused || report.release == ReleaseResult::not_attempted;
+}
 
 std::string force_words(const LoopReport& report, double watchdog) {
   SafeLine line;
-  add_force_words(line, report.let_go, {norm(report.force.arm), std::abs(report.force.grip)}, watchdog, report.let_go_trouble);
+  add_force_words(line, report.release, {norm(report.force.arm), std::abs(report.force.grip)}, watchdog, report.release_error);
   return std::string(line.text());
 }
 
@@ -180,7 +182,7 @@ std::string fault_line(const LoopReport& report, const Guard& guard, const LiveD
   const double seconds = static_cast<double>(report.last.number) / live.rate;
   if (report.fault == Fault::none || report.fault == Fault::interrupted)
     return fmt::format("live: the session ended after {:.3f} s; {}", seconds, force_words(report, watchdog));
-  std::string words = report.trouble;
+  std::string words = report.error;
   if (report.fault == Fault::jump) words = guard.jump();
   if (report.fault == Fault::stale) words = "the same measurement came twice";
   if (report.fault == Fault::late)

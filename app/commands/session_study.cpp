@@ -50,7 +50,7 @@ void note_differences(const RecordingInfo& first, const RecordingInfo& other, co
       std::equal(first.vessels.begin(), first.vessels.end(), other.vessels.begin(), other.vessels.end(),
                  [](const RecordedVessel& a, const RecordedVessel& b) { return is_same(a.force_range, b.force_range); });
   if (is_same(first.force_base, other.force_base) && is_same(first.force_max, other.force_max) && has_same_ranges) return;
-  say_note(fmt::format("{}: F_base, F_max or an F_range differ from those of {}; both count alike", path, first_path));
+  print_note(fmt::format("{}: F_base, F_max or an F_range differ from those of {}; both count alike", path, first_path));
 }
 
 std::vector<GraspReport> grasps_of(const Recording& recording) {
@@ -75,7 +75,7 @@ RecordedSessions read_sessions(const std::vector<std::string>& paths) {
     const std::string& path = paths[k];
     check_is_another(paths, k);
     const Recording recording = read_recording(path);
-    if (!recording.note.empty()) say_note(recording.note);
+    if (!recording.note.empty()) print_note(recording.note);
     if (!first) {
       first = recording.info;
       if (first->scene_text.empty())

@@ -27,13 +27,13 @@ const char* remedy_words(Remedy remedy) {
   return "";
 }
 
-std::string line_of(const Error& error) { return one_line(std::string(error.what()) + remedy_words(error.remedy)); }
+std::string error_line(const Error& error) { return one_line(std::string(error.what()) + remedy_words(error.remedy)); }
 
-std::vector<std::string> say_float_warnings(const Scene& scene, Precision precision) {
+std::vector<std::string> print_float_warnings(const Scene& scene, Precision precision) {
   std::vector<std::string> lines = domain_warnings(scene, precision);
   for (std::string& line : lines) {
     line += remedy_words(Remedy::double_precision);
-    say_note(line);
+    print_note(line);
   }
   return lines;
 }

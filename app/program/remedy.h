@@ -15,10 +15,10 @@ namespace wholehand {
 const char* remedy_words(Remedy remedy);
 
 // The whole line for the user, without anything that steers a terminal.
-std::string line_of(const Error& error);
+std::string error_line(const Error& error);
 
 // Prints to stderr and returns what exceeds float's domain in the scene (domain_warnings), a line each, with the remedy.
 // Throws as domain_warnings does.
-std::vector<std::string> say_float_warnings(const Scene& scene, Precision precision);
+std::vector<std::string> print_float_warnings(const Scene& scene, Precision precision);
 
 }  // namespace wholehand

@@ -40,7 +40,7 @@ bool is_within(double value, const Range& range) {
 
 const std::array<const char*, GRIP_COLUMNS> GRIP_COLUMN_NAMES{"height", "azimuth", "obliquity", "roll", "offset", "hand_scale"};
 
-GripNumbers numbers_of(const GripInput& grip) {
+GripNumbers grip_columns(const GripInput& grip) {
   return {grip.height, grip.azimuth, grip.obliquity, grip.roll, grip.offset, grip.hand_scale};
 }
 
@@ -81,7 +81,7 @@ GripSource GripColumns::source() const {
 }
 
 void check_grip(const GripInput& grip, const char* name) {
-  const GripNumbers numbers = numbers_of(grip);
+  const GripNumbers numbers = grip_columns(grip);
   for (std::size_t c = 0; c < GRIP_COLUMNS; ++c) {
     const Range& range = grip_ranges()[c];
     if (!is_within(numbers[c], range))

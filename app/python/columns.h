@@ -18,7 +18,7 @@ constexpr std::size_t GRIP_COLUMNS = 6;
 extern const std::array<const char*, GRIP_COLUMNS> GRIP_COLUMN_NAMES;  // height .. hand_scale
 
 using GripNumbers = std::array<double, GRIP_COLUMNS>;
-GripNumbers numbers_of(const GripInput& grip);
+GripNumbers grip_columns(const GripInput& grip);
 
 using Doubles = pybind11::array_t<double, 0>;  // strided as it is; nothing is converted
 using GripArrays = std::array<Doubles, GRIP_COLUMNS>;

@@ -32,7 +32,7 @@ void translate(std::exception_ptr failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const Error& error) {
-    raise(line_of(error), error.code);
+    raise(error_line(error), error.code);
   } catch (const py::error_already_set&) {
     throw;  // Python's own
   } catch (const py::builtin_exception&) {

@@ -126,7 +126,7 @@ void put(const Output& output, const PlaneChunk& chunk, const FieldSet& fields, 
 // handler raised, or the work threw, goes on.
 template <class Work>
 void with_signals(std::atomic<bool>& stop, const Work& work) {
-  std::exception_ptr trouble;
+  std::exception_ptr error;
   {
     const py::gil_scoped_release other_threads;
     std::future<void> done = std::async(std::launch::async, work);
@@ -137,11 +137,11 @@ void with_signals(std::atomic<bool>& stop, const Work& work) {
     try {
       done.get();
     } catch (...) {
-      trouble = std::current_exception();
+      error = std::current_exception();
     }
   }
   if (stop) throw py::error_already_set();
-  if (trouble) std::rethrow_exception(trouble);
+  if (error) std::rethrow_exception(error);
 }
 
 void check_vessel(const Scene& scene, std::size_t vessel) {
@@ -193,8 +193,8 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
                    const std::optional<std::vector<std::string>>& variables, const std::string& asked_on,
                    const std::optional<std::string>& precision, int threads) {
   const GripColumns grips(arrays);
-  std::string on = resolved_backend(handle, grips.count(), variables, asked_on, precision, threads_of(threads));
-  BatchSpec spec{variables, on, precision_of(precision, on), threads_of(threads)};
+  std::string on = resolved_backend(handle, grips.count(), variables, asked_on, precision, checked_threads(threads));
+  BatchSpec spec{variables, on, precision_of(precision, on), checked_threads(threads)};
   check_vessel(handle.described(), vessel);
   std::shared_ptr<Batch> batch;
   const Scene* scene = nullptr;

@@ -48,12 +48,12 @@ GripNumbers grip_at(double height, double azimuth, double obliquity, double roll
   grip.roll = quantity(roll, "--roll-deg", ranges::ROTATION);
   grip.offset = quantity(offset, "--offset-mm", ranges::OFFSET);
   grip.hand_scale = quantity(hand_scale, "--hand-scale", ranges::SCALE);
-  return numbers_of(grip);
+  return grip_columns(grip);
 }
 
 GripNumbers grip_between(const std::array<double, 3>& thumb, const std::array<double, 3>& index, double roll, double hand_scale) {
   const double turn = quantity(roll, "--roll-deg", ranges::ROTATION), scale = quantity(hand_scale, "--hand-scale", ranges::SCALE);
-  return numbers_of(grip_through(point(thumb, "--thumb-mm"), point(index, "--index-mm"), turn, scale));
+  return grip_columns(grip_through(point(thumb, "--thumb-mm"), point(index, "--index-mm"), turn, scale));
 }
 
 // What is asked beside the grip. Fills are fractions; volumes in mL replace them.

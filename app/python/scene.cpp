@@ -143,7 +143,7 @@ Precision precision_of(const std::optional<std::string>& text, const std::string
   return on == "core" ? Precision::full : Precision::single;
 }
 
-int threads_of(int threads) {
+int checked_threads(int threads) {
   return threads == 0 ? 0 : static_cast<int>(parse_integer(std::to_string(threads), "--threads", ranges::THREADS));
 }
 
@@ -165,8 +165,8 @@ HandlePointer scene_of_dataset(const std::string& text, const std::string& sourc
   check_version(source.empty() ? "" : source + ": ", version, "run the sweep again");
   Scene scene = parse_scene(text, "the result's scene");
   if (!scene_file.empty()) scene.file = scene_file;
-  const std::string trouble = reload_meshes(scene, source, keys, lattices, true);
-  if (!trouble.empty()) throw usage_error("the result's scene: " + trouble);
+  const std::string refusal = reload_meshes(scene, source, keys, lattices, true);
+  if (!refusal.empty()) throw usage_error("the result's scene: " + refusal);
   return std::make_shared<SceneHandle>(std::move(scene));
 }
 

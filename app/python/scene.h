@@ -81,6 +81,6 @@ bool is_forked_from_device();
 Precision precision_of(const std::optional<std::string>& text, const std::string& on);
 
 // As the program's option --threads; 0: all.
-int threads_of(int threads);
+int checked_threads(int threads);
 
 }  // namespace wholehand

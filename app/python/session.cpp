@@ -28,7 +28,7 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 // Real numbers of any kind as doubles. No text, truths or complex numbers, which NumPy would convert, and no masked arrays, whose
 // masks it would drop.
-Numbers numbers_of(const py::object& values, const char* name) {
+Numbers finite_doubles(const py::object& values, const char* name) {
   const py::array array = py::array::ensure(values);
   if (!array) throw usage_error(fmt::format("session: the {} is no array of numbers", name));
   const bool is_masked = std::string_view(Py_TYPE(values.ptr())->tp_name) == "MaskedArray";
@@ -128,12 +128,12 @@ class SessionHandle {
 
   static GripperState state_of(const py::object& given_position, const py::object& given_rotation, double gap,
                                std::uint32_t buttons) {
-    const Numbers position = numbers_of(given_position, "position");
+    const Numbers position = finite_doubles(given_position, "position");
     if (position.ndim() != 1 || position.shape(0) != 3) throw usage_error("session: the position has another shape than (3,)");
     GripperState state;
     std::copy_n(position.data(), 3, state.position.begin());
     if (!given_rotation.is_none()) {
-      const Numbers rotation = numbers_of(given_rotation, "rotation");
+      const Numbers rotation = finite_doubles(given_rotation, "rotation");
       if (rotation.ndim() != 2 || rotation.shape(0) != 3 || rotation.shape(1) != 3)
         throw usage_error("session: the rotation has another shape than (3, 3)");
       std::copy_n(rotation.data(), 9, state.rotation.begin());
@@ -156,7 +156,7 @@ class SessionHandle {
   std::thread::id owner_;
 };
 
-std::string text_of(const Step& step) {
+std::string step_text(const Step& step) {
   const std::string state = SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)];
   const int vessel = step.tick.vessel;
   const std::string of = vessel < 0 ? "" : " " + step.session->live().scene.vessels[static_cast<std::size_t>(vessel)].name;
@@ -235,7 +235,7 @@ void bind_step(py::module_& module) {
           "joints", [](const Step& step) { return points_of(step.hand().proxies); },
           "The whole hand as it is drawn, m, world frame, shape (24, 3).")
       .def("hand", &Step::hand, "The whole hand with its wrist.")
-      .def("__repr__", &text_of);
+      .def("__repr__", &step_text);
 }
 
 std::vector<bool> touching(const HandView& hand) {

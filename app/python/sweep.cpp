@@ -32,7 +32,7 @@ SweepOptions options_of(const SweepSpec& spec, std::vector<std::string>& notes) 
   options.on = spec.on;
   if (spec.precision) options.precision = parse_precision(*spec.precision);
   if (spec.best) options.best = static_cast<int>(parse_integer(std::to_string(*spec.best), "--best", ranges::BEST));
-  options.threads = threads_of(spec.threads);
+  options.threads = checked_threads(spec.threads);
   options.refine = spec.refine;
   options.resume = spec.resume;
   options.note = [&notes](const std::string& line) { notes.push_back(line); };

@@ -22,7 +22,7 @@ using nlohmann::json;
 constexpr const char* KEYS = "allowed: position, rotation, gap, buttons, sequence, each once";
 constexpr std::int64_t LARGEST_SEQUENCE = (std::int64_t{1} << 53) - 1;  // JavaScript's largest whole number
 
-double number_of(const json& value, const char* key, double most) {
+double parse_number(const json& value, const char* key, double most) {
   const double number = value.is_number() ? value.get<double>() : NAN;
   if (!(std::abs(number) <= most))
     throw usage_error(fmt::format("control: '{}': allowed: numbers from {:g} to {:g}", key, -most, most));
@@ -30,10 +30,10 @@ double number_of(const json& value, const char* key, double most) {
 }
 
 template <std::size_t N>
-std::array<double, N> numbers_of(const json& value, const char* key, double most) {
+std::array<double, N> parse_numbers(const json& value, const char* key, double most) {
   if (!value.is_array() || value.size() != N) throw usage_error(fmt::format("control: '{}': allowed: {} numbers", key, N));
   std::array<double, N> numbers{};
-  for (std::size_t k = 0; k < N; ++k) numbers[k] = number_of(value[k], key, most);
+  for (std::size_t k = 0; k < N; ++k) numbers[k] = parse_number(value[k], key, most);
   return numbers;
 }
 
@@ -78,9 +78,9 @@ ViewControl parse_view_control(std::string_view body) {
     throw usage_error(fmt::format("control: unknown key {}; {}", in_quotes(key), KEYS));
   }
   ViewControl control;
-  control.position = numbers_of<3>(object["position"], "position", FURTHEST_CONTROL);
-  control.rotation = rotation_of(numbers_of<9>(object["rotation"], "rotation", 2));
-  control.gap = number_of(object["gap"], "gap", FURTHEST_CONTROL);
+  control.position = parse_numbers<3>(object["position"], "position", FURTHEST_CONTROL);
+  control.rotation = rotation_of(parse_numbers<9>(object["rotation"], "rotation", 2));
+  control.gap = parse_number(object["gap"], "gap", FURTHEST_CONTROL);
   control.buttons = static_cast<std::uint32_t>(whole_of(object["buttons"], "buttons", UINT32_MAX));
   control.sequence = whole_of(object["sequence"], "sequence", LARGEST_SEQUENCE);
   return control;

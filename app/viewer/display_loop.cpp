@@ -92,8 +92,8 @@ void DisplayLoop::show_newest() {
   const HandView hand = hand_view(live_, tick, poses);
   const std::shared_ptr<const Advice> advice = advice_ ? advice_() : nullptr;
   static const Advice NO_ADVICE;
-  const Advice* const told = advice ? advice.get() : advice_ ? &NO_ADVICE : nullptr;
-  for (Display* display : displays_) display->show({tick, poses, hand, timing, told});
+  const Advice* const shown = advice ? advice.get() : advice_ ? &NO_ADVICE : nullptr;
+  for (Display* display : displays_) display->show({tick, poses, hand, timing, shown});
 }
 
 bool DisplayLoop::is_watched() const {

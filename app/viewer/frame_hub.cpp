@@ -46,7 +46,7 @@ void FrameHub::close(const std::string& reason) {
   changed_.notify_all();
 }
 
-FrameHub::News FrameHub::wait(std::uint64_t seen, std::chrono::milliseconds most) {
+FrameHub::Update FrameHub::wait(std::uint64_t seen, std::chrono::milliseconds most) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, most, [&] { return number_ > seen || is_over_; });
   return {number_ > seen ? frame_ : nullptr, number_, is_over_, reason_};

@@ -27,14 +27,14 @@ class FrameHub {
   // No more frames; the first reason stays.
   void close(const std::string& reason);
 
-  struct News {
+  struct Update {
     std::shared_ptr<const std::string> frame;  // null: none since
     std::uint64_t number = 0;                  // of it
     bool is_over = false;                      // and `frame` is the last
     std::string reason;
   };
   // What is newer than the frame of that number (0: any), waited for so long at most.
-  News wait(std::uint64_t seen, std::chrono::milliseconds most);
+  Update wait(std::uint64_t seen, std::chrono::milliseconds most);
 
  private:
   const int most_viewers_;

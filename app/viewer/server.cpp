@@ -69,14 +69,14 @@ class Watcher {
   Watcher& operator=(const Watcher&) = delete;
 
   bool write(httplib::DataSink& sink) {
-    const FrameHub::News news = frames_.wait(seen_, SIGN_OF_LIFE);
-    seen_ = news.number;
+    const FrameHub::Update update = frames_.wait(seen_, SIGN_OF_LIFE);
+    seen_ = update.number;
     std::string text;
-    if (news.frame) text = fmt::format("data: {}\n\n", *news.frame);
-    if (news.is_over) text += fmt::format("event: end\ndata: {{\"reason\":{}}}\n\n", json_text(nlohmann::json(news.reason)));
+    if (update.frame) text = fmt::format("data: {}\n\n", *update.frame);
+    if (update.is_over) text += fmt::format("event: end\ndata: {{\"reason\":{}}}\n\n", json_text(nlohmann::json(update.reason)));
     if (text.empty()) text = ":\n\n";  // nobody there is found out by writing
     sink.write(text.data(), text.size());
-    if (news.is_over) sink.done();
+    if (update.is_over) sink.done();
     return true;
   }
 

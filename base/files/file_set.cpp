@@ -31,35 +31,35 @@ void flush(const std::string& file, const std::string& own_name, const char* rem
 }  // namespace
 
 FileSet::~FileSet() {
-  for (const File& file : files_) std::remove(file.on_the_way.c_str());
+  for (const File& file : files_) std::remove(file.temporary_path.c_str());
 }
 
-std::string FileSet::name_on_the_way(const std::string& path) { return followed(path) + ".new"; }
+std::string FileSet::temporary_name(const std::string& path) { return followed(path) + ".new"; }
 
-std::string FileSet::on_the_way(const std::string& path) {
-  files_.push_back({path, name_on_the_way(path)});
-  std::remove(files_.back().on_the_way.c_str());
-  return files_.back().on_the_way;
+std::string FileSet::temporary_path(const std::string& path) {
+  files_.push_back({path, temporary_name(path)});
+  std::remove(files_.back().temporary_path.c_str());
+  return files_.back().temporary_path;
 }
 
 void FileSet::write(const std::string& path, const std::string& text, const char* remedy) {
-  const int error = write_new_file(on_the_way(path), text, false);
+  const int error = write_new_file(temporary_path(path), text, false);
   if (error != 0) throw cannot_write(path, error, remedy);
 }
 
-void FileSet::without(const std::string& path) {
+void FileSet::remove_on_commit(const std::string& path) {
   std::erase_if(files_, [&](const File& file) {
     if (file.path != path) return false;
-    std::remove(file.on_the_way.c_str());
+    std::remove(file.temporary_path.c_str());
     return true;
   });
   absent_.push_back(path);
 }
 
-void FileSet::give_names(const char* remedy) {
-  for (const File& file : files_) flush(file.on_the_way, file.path, remedy);
+void FileSet::commit(const char* remedy) {
+  for (const File& file : files_) flush(file.temporary_path, file.path, remedy);
   for (const File& file : files_)
-    if (std::rename(file.on_the_way.c_str(), followed(file.path).c_str()) != 0) throw cannot_write(file.path, errno, remedy);
+    if (std::rename(file.temporary_path.c_str(), followed(file.path).c_str()) != 0) throw cannot_write(file.path, errno, remedy);
   for (const std::string& path : absent_) std::remove(path.c_str());
   for (const File& file : files_) sync_folder_of(followed(file.path));
   files_.clear();
@@ -67,8 +67,8 @@ void FileSet::give_names(const char* remedy) {
 
 std::string FileSet::with_own_names(std::string message) const {
   for (const File& file : files_)
-    for (std::size_t at = 0; (at = message.find(file.on_the_way, at)) != std::string::npos; at += file.path.size())
-      message.replace(at, file.on_the_way.size(), file.path);
+    for (std::size_t at = 0; (at = message.find(file.temporary_path, at)) != std::string::npos; at += file.path.size())
+      message.replace(at, file.temporary_path.size(), file.path);
   return message;
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string line_of(const Json& content) {
+std::string json_line(const Json& content) {
   const std::string text = json_text(content);
   return checksum_text(text.data(), text.size()) + " " + text + "\n";
 }
@@ -39,14 +39,14 @@ std::optional<Json> content_of(const std::string& line) {
 }
 
 std::string head_of(const JournalKind& kind, const JournalIdentity& identity) {
-  return fmt::format("{}{}\n{}", kind.start, kind.format, line_of(Json(identity)));
+  return fmt::format("{}{}\n{}", kind.start, kind.format, json_line(Json(identity)));
 }
 
 // Not as write_whole_file does: what is left of a process that was killed has a name that the next one knows.
 void write_whole(const std::string& path, const std::string& text, const char* remedy) {
   FileSet set;
   set.write(path, text, remedy);
-  set.give_names(remedy);
+  set.commit(remedy);
 }
 
 Error unwritten(const std::string& path, const char* remedy) {
@@ -108,7 +108,7 @@ void LineJournal::open() {
   if (file_ < 0) throw unwritten(path_, kind_.remedy_at_begin);
 }
 
-void LineJournal::add(const Json& part) { write(line_of(part)); }
+void LineJournal::add(const Json& part) { write(json_line(part)); }
 
 void LineJournal::write(const std::string& text) {
   const std::lock_guard lock(mutex_);

@@ -9,16 +9,16 @@
 
 namespace wholehand {
 
-// The place in `listed`, which is not empty, of the value nearest to the number `told`.
-inline std::size_t nearest_place(const std::vector<double>& listed, double told) {
+// The place in `listed`, which is not empty, of the value nearest to the number `value`.
+inline std::size_t nearest_place(const std::vector<double>& listed, double value) {
   const auto nearest = std::min_element(listed.begin(), listed.end(),
-                                        [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
+                                        [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
   return static_cast<std::size_t>(nearest - listed.begin());
 }
 
-// The listed value nearest to `told`; NaN for NaN.
-inline double nearest_value(const std::vector<double>& listed, double told) {
-  return std::isnan(told) ? told : listed[nearest_place(listed, told)];
+// The listed value nearest to `value`; NaN for NaN.
+inline double nearest_value(const std::vector<double>& listed, double value) {
+  return std::isnan(value) ? value : listed[nearest_place(listed, value)];
 }
 
 }  // namespace wholehand

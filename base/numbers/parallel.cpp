@@ -11,7 +11,9 @@
 
 namespace wholehand {
 
-int thread_count(int wished) { return wished > 0 ? wished : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+int thread_count(int requested) {
+  return requested > 0 ? requested : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
 
 void in_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                  const std::function<void(std::size_t)>& after) {

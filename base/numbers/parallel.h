@@ -7,8 +7,8 @@
 
 namespace wholehand {
 
-// As many threads as are wished; one for each core of the machine where that is 0.
-int thread_count(int wished = 0);
+// `requested` threads; one for each core of the machine where that is 0.
+int thread_count(int requested = 0);
 
 // Calls work(i) for each i below `count` on thread_count(threads) threads, or as many as the machine has, the calling one among them.
 // They take the numbers in ascending order, each the next one when it is free. `after` is called by the calling thread after each of

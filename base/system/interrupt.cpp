@@ -70,7 +70,7 @@ void InterruptGuard::clear() {
   if (signal_came) stop = true;
 }
 
-void InterruptGuard::on_another(void (*act)(int signal)) { another = act; }
+void InterruptGuard::on_second_signal(void (*act)(int signal)) { another = act; }
 
 bool InterruptGuard::signalled() { return signal_came; }
 

@@ -23,7 +23,7 @@ class InterruptGuard {
   // Takes the flag back, unless a signal has come meanwhile.
   void clear();
   // From now on another signal is `act`'s, in the signal's handler. Null: it ends the process as usual.
-  void on_another(void (*act)(int signal));
+  void on_second_signal(void (*act)(int signal));
   static bool signalled();
   // The number of the signal that came first to the latest guard; 0: none came.
   static int signal_number();

@@ -17,8 +17,8 @@ void prepare_output();
 void print(std::string_view text);
 
 // Writes one line to standard error at once: as it is, and as a note of the program.
-void say_line(std::string_view line);
-void say_note(const std::string& line);
+void print_error_line(std::string_view line);
+void print_note(const std::string& line);
 
 // Whether standard output is a pipe whose reader has gone, as far as it was noticed: nobody wants to read more. Where printing is all that is
 // left to do, this is the end of it.

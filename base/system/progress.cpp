@@ -33,7 +33,7 @@ std::string time_text(double seconds) {
 }  // namespace
 
 void announce_time(const std::string& what, double seconds) {
-  if (seconds >= LONG_UNANNOUNCED) say_note(what + " takes about " + readable_duration(seconds));
+  if (seconds >= LONG_UNANNOUNCED) print_note(what + " takes about " + readable_duration(seconds));
 }
 
 ProgressSink progress_sink(ProgressSink otherwise) { return isatty(STDERR_FILENO) == 1 ? ProgressSink::terminal : otherwise; }

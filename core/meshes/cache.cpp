@@ -81,10 +81,10 @@ Digest lattice_digest(const CheckedMesh& mesh, const PreparedLattice& lattice) {
 
 // Digest of a lattice whose spacing is chosen. Where the tolerance alone decides, the lattice is the same with any memory that holds it
 // (`most_bytes` 0); else the memory is part of the request.
-Digest choice_digest(const CheckedMesh& mesh, const LatticeWish& wish, int bits, std::uint64_t most_bytes) {
+Digest choice_digest(const CheckedMesh& mesh, const LatticeSpec& spec, int bits, std::uint64_t most_bytes) {
   Hash hash = hash_of(mesh);
-  hash.add(wish.tolerance);
-  hash.add(wish.margin);
+  hash.add(spec.tolerance);
+  hash.add(spec.margin);
   hash.add(bits);
   hash.add(most_bytes);
   return hash.digest();
@@ -152,9 +152,9 @@ bool read_value(std::istream& in, T& value) {
   return static_cast<bool>(in.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
-// The lattice in a file; none where it is not there, not whole, not this one, or not what is wished.
+// The lattice in a file; none where it is not there, not whole, not this one, or not what `spec` asks for.
 std::optional<MeshLattice> load_lattice_file(const fs::path& file, const Digest& key, const MeshFacts& facts,
-                                             const LatticeWish& wish) try {
+                                             const LatticeSpec& spec) try {
   if (!fs::is_regular_file(file)) return {};  // a pipe would be waited for
   std::ifstream in(file, std::ios::binary);
   LatticeHeader header;
@@ -162,8 +162,8 @@ std::optional<MeshLattice> load_lattice_file(const fs::path& file, const Digest&
   if (header.magic != LatticeHeader().magic || header.format != LATTICE_FORMAT || header.key != key) return {};
   if (!(header.spacing > 0)) return {};
   const std::size_t count = words_in(header, fs::file_size(file));
-  const std::optional<PreparedLattice> wished = lattice_at(facts, wish, header.spacing);
-  if (count == 0 || !wished || wished->halves != (header.bits == 16)) return {};
+  const std::optional<PreparedLattice> expected = lattice_at(facts, spec, header.spacing);
+  if (count == 0 || !expected || expected->halves != (header.bits == 16)) return {};
   std::vector<std::uint32_t> words(count);
   Digest digest{};
   if (!in.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(4 * count)) || !read_value(in, digest))
@@ -220,25 +220,25 @@ void save_lattice_file(const LatticeCache& cache, const Digest& key, const MeshL
 
 }  // namespace
 
-MeshLattice cached_lattice(const CheckedMesh& mesh, const LatticeWish& wish, const std::string& folder,
+MeshLattice cached_lattice(const CheckedMesh& mesh, const LatticeSpec& spec, const std::string& folder,
                            const LatticeProgress& progress, const LatticeForecast& forecast) {
-  const auto make = [&] { return lattice_of_mesh(MeshDistance(mesh), mesh, wish, progress, forecast); };
+  const auto make = [&] { return lattice_of_mesh(MeshDistance(mesh), mesh, spec, progress, forecast); };
   const LatticeCache cache{folder.empty() ? cache_folder() : folder, cache_limit()};
   if (cache.folder.empty() || cache.limit == 0) return make();
-  const int bits = wish.bits.value_or(32);
+  const int bits = spec.bits.value_or(32);
   std::vector<Digest> keys;  // any file that holds the lattice has one of these
-  if (!wish.spacing) {
-    keys = {choice_digest(mesh, wish, bits, 0), choice_digest(mesh, wish, wish.bits.value_or(0), wish.most_bytes)};
-  } else if (const std::optional<PreparedLattice> lattice = lattice_at(mesh.facts, wish, *wish.spacing)) {
+  if (!spec.spacing) {
+    keys = {choice_digest(mesh, spec, bits, 0), choice_digest(mesh, spec, spec.bits.value_or(0), spec.most_bytes)};
+  } else if (const std::optional<PreparedLattice> lattice = lattice_at(mesh.facts, spec, *spec.spacing)) {
     keys = {lattice_digest(mesh, *lattice)};
   }
   for (const Digest& key : keys) {
-    if (auto found = load_lattice_file(cache.lattices() / (hex_of(key) + LATTICE_SUFFIX), key, mesh.facts, wish))
+    if (auto found = load_lattice_file(cache.lattices() / (hex_of(key) + LATTICE_SUFFIX), key, mesh.facts, spec))
       return std::move(*found);
   }
   MeshLattice made = make();
   const bool by_tolerance = !made.at_limit && made.lattice.halves == (bits == 16);
-  save_lattice_file(cache, wish.spacing || by_tolerance ? keys.front() : keys.back(), made);
+  save_lattice_file(cache, spec.spacing || by_tolerance ? keys.front() : keys.back(), made);
   return made;
 }
 

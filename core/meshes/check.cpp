@@ -117,7 +117,7 @@ std::string span_text(const MeshFacts& facts, int axis) {
   return millimeters(facts.low[axis]) + " to " + millimeters(facts.high[axis]);
 }
 
-// Closes all holes, or says why not; without the wish only measures them.
+// Closes all holes, or says why not; unless the scene asks for that, only measures them.
 void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, MeshFacts& facts) {
   const MeshHoles holes = find_holes(mesh);
   const double extent = largest_extent(facts);

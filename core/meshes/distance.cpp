@@ -74,7 +74,7 @@ const std::array<RayFrame, 8>& ray_frames() {
   return FRAMES;
 }
 
-std::string embree_trouble(RTCDevice device) {
+std::string embree_error(RTCDevice device) {
   const RTCError code = rtcGetDeviceError(device);
   if (code == RTC_ERROR_NONE) return "";
   return code == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : fmt::format("error {}", static_cast<int>(code));
@@ -198,7 +198,7 @@ MeshDistance::Parts::Parts(const CheckedMesh& checked)
       extent(glm::length(to_vec3(checked.facts.high) - center)) {
   if (sign == MeshSign::winding) winding.emplace(mesh);
   device = rtcNewDevice(nullptr);
-  if (device == nullptr) throw failure_error("Embree cannot be started: " + embree_trouble(nullptr));
+  if (device == nullptr) throw failure_error("Embree cannot be started: " + embree_error(nullptr));
   try {
     build();
   } catch (...) {
@@ -222,8 +222,8 @@ void MeshDistance::Parts::build() {
   rtcReleaseGeometry(geometry);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // a ray that grazes a box is in it
   rtcCommitScene(scene);
-  const std::string trouble = embree_trouble(device);
-  if (!trouble.empty()) throw failure_error("Embree cannot take the mesh: " + trouble);
+  const std::string error = embree_error(device);
+  if (!error.empty()) throw failure_error("Embree cannot take the mesh: " + error);
 }
 
 MeshDistance::Parts::~Parts() {

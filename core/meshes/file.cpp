@@ -81,8 +81,8 @@ std::string read_mesh_bytes(const std::string& path, std::string& bytes) {
 
 std::string mesh_bytes(const MeshFile& file) {
   std::string bytes;
-  const std::string trouble = read_mesh_bytes(file.path, bytes);
-  if (!trouble.empty()) file.refuse(trouble);
+  const std::string refusal = read_mesh_bytes(file.path, bytes);
+  if (!refusal.empty()) file.refuse(refusal);
   if (bytes.empty()) file.refuse("is empty");
   return bytes;
 }

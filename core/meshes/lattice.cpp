@@ -67,11 +67,11 @@ std::vector<Triple> surface_points(const MeshDistance& distance, const TriangleM
 
 double samples_of(const PreparedLattice& lattice) { return static_cast<double>(lattice.nx) * lattice.ny * lattice.nz; }
 
-bool stores_halves(const PreparedLattice& lattice, const MeshFacts& facts, const LatticeWish& wish) {
-  if (wish.bits) return *wish.bits == 16;
+bool stores_halves(const PreparedLattice& lattice, const MeshFacts& facts, const LatticeSpec& spec) {
+  if (spec.bits) return *spec.bits == 16;
   double squared = 0;
-  for (int k = 0; k < 3; ++k) squared += std::pow(facts.high[k] - facts.low[k] + 2 * wish.margin, 2);
-  return 4 * samples_of(lattice) > static_cast<double>(wish.most_bytes) / 2 && std::sqrt(squared) < FAR_FOR_HALVES;
+  for (int k = 0; k < 3; ++k) squared += std::pow(facts.high[k] - facts.low[k] + 2 * spec.margin, 2);
+  return 4 * samples_of(lattice) > static_cast<double>(spec.most_bytes) / 2 && std::sqrt(squared) < FAR_FOR_HALVES;
 }
 
 // A sample as the kernels will read it.
@@ -81,25 +81,25 @@ double stored_value(double value, bool halves) {
 }
 
 // Where the samples of a lattice lie, and in how many bits; none are taken yet.
-PreparedLattice lay_lattice(const MeshFacts& facts, const LatticeWish& wish, double spacing) {
+PreparedLattice lay_lattice(const MeshFacts& facts, const LatticeSpec& spec, double spacing) {
   PreparedLattice lattice;
   lattice.spacing = spacing;
   std::array<int, 3> counts{};
   for (int k = 0; k < 3; ++k) {
-    const double length = facts.high[k] - facts.low[k] + 2 * wish.margin;
+    const double length = facts.high[k] - facts.low[k] + 2 * spec.margin;
     counts[k] = static_cast<int>(std::min(std::ceil(length / spacing) + 5, 1e9));
-    lattice.origin[k] = facts.low[k] - wish.margin - 2 * spacing;
+    lattice.origin[k] = facts.low[k] - spec.margin - 2 * spacing;
   }
   lattice.nx = counts[0];
   lattice.ny = counts[1];
   lattice.nz = counts[2];
-  lattice.halves = stores_halves(lattice, facts, wish);
+  lattice.halves = stores_halves(lattice, facts, spec);
   return lattice;
 }
 
-bool lattice_fits(const PreparedLattice& lattice, const LatticeWish& wish) {
+bool lattice_fits(const PreparedLattice& lattice, const LatticeSpec& spec) {
   const double words = lattice.halves ? std::ceil(samples_of(lattice) / 2) : samples_of(lattice);
-  return samples_of(lattice) <= MOST_SAMPLES && 4 * words <= static_cast<double>(wish.most_bytes);
+  return samples_of(lattice) <= MOST_SAMPLES && 4 * words <= static_cast<double>(spec.most_bytes);
 }
 
 Triple lattice_place(const PreparedLattice& lattice, int i, int j, int k) {
@@ -108,10 +108,10 @@ Triple lattice_place(const PreparedLattice& lattice, int i, int j, int k) {
 }
 
 // The finest lattice that fits, between one that does and a smaller spacing that does not.
-PreparedLattice finest_lattice(const MeshFacts& facts, const LatticeWish& wish, PreparedLattice fits, double too_fine) {
+PreparedLattice finest_lattice(const MeshFacts& facts, const LatticeSpec& spec, PreparedLattice fits, double too_fine) {
   while (fits.spacing - too_fine > SAME_SPACING * fits.spacing) {
-    const PreparedLattice between = lay_lattice(facts, wish, 0.5 * (fits.spacing + too_fine));
-    if (lattice_fits(between, wish)) {
+    const PreparedLattice between = lay_lattice(facts, spec, 0.5 * (fits.spacing + too_fine));
+    if (lattice_fits(between, spec)) {
       fits = between;
     } else {
       too_fine = between.spacing;
@@ -163,45 +163,45 @@ double largest_error(const std::vector<Triple>& points, int threads, const std::
 }
 
 // Where the search for a spacing starts: coarser than it would be where only that fits.
-PreparedLattice coarsest_lattice(const MeshFacts& facts, const LatticeWish& wish, bool& at_limit) {
+PreparedLattice coarsest_lattice(const MeshFacts& facts, const LatticeSpec& spec, bool& at_limit) {
   double spacing = 0;
   for (int k = 0; k < 3; ++k) spacing = std::max(spacing, (facts.high[k] - facts.low[k]) / COARSEST_CELLS);
-  PreparedLattice lattice = lay_lattice(facts, wish, spacing);
-  at_limit = !lattice_fits(lattice, wish);
-  while (!lattice_fits(lattice, wish) && samples_of(lattice) > FEWEST_SAMPLES)
-    lattice = lay_lattice(facts, wish, lattice.spacing * SPACING_STEP);
-  if (!lattice_fits(lattice, wish)) throw usage_error(fmt::format("no lattice of distances fits {} bytes", wish.most_bytes));
+  PreparedLattice lattice = lay_lattice(facts, spec, spacing);
+  at_limit = !lattice_fits(lattice, spec);
+  while (!lattice_fits(lattice, spec) && samples_of(lattice) > FEWEST_SAMPLES)
+    lattice = lay_lattice(facts, spec, lattice.spacing * SPACING_STEP);
+  if (!lattice_fits(lattice, spec)) throw usage_error(fmt::format("no lattice of distances fits {} bytes", spec.most_bytes));
   return lattice;
 }
 
 // Finer and finer until the error is small enough or no more samples fit.
 PreparedLattice choose_lattice(const MeshDistance& distance, const MeshFacts& facts, const std::vector<Triple>& points,
-                               const LatticeWish& wish, const LatticeProgress& progress, bool& at_limit) {
-  PreparedLattice lattice = coarsest_lattice(facts, wish, at_limit);
+                               const LatticeSpec& spec, const LatticeProgress& progress, bool& at_limit) {
+  PreparedLattice lattice = coarsest_lattice(facts, spec, at_limit);
   const auto value_at = [&](const Triple& p) { return value_without_samples(distance, lattice, p); };
   const auto is_coarse = [&] {
     if (progress) progress(0);
-    return any_error_above(points, wish.threads, wish.tolerance, value_at);
+    return any_error_above(points, spec.threads, spec.tolerance, value_at);
   };
   while (is_coarse()) {
-    const PreparedLattice finer = lay_lattice(facts, wish, lattice.spacing / SPACING_STEP);
-    if (!lattice_fits(finer, wish)) {
+    const PreparedLattice finer = lay_lattice(facts, spec, lattice.spacing / SPACING_STEP);
+    if (!lattice_fits(finer, spec)) {
       at_limit = true;
-      return finest_lattice(facts, wish, lattice, finer.spacing);
+      return finest_lattice(facts, spec, lattice, finer.spacing);
     }
     lattice = finer;
   }
   return lattice;
 }
 
-PreparedLattice given_lattice(const MeshFacts& facts, const LatticeWish& wish) {
-  const PreparedLattice lattice = lay_lattice(facts, wish, *wish.spacing);
-  if (lattice_fits(lattice, wish)) return lattice;
+PreparedLattice given_lattice(const MeshFacts& facts, const LatticeSpec& spec) {
+  const PreparedLattice lattice = lay_lattice(facts, spec, *spec.spacing);
+  if (lattice_fits(lattice, spec)) return lattice;
   bool at_limit = false;
-  const double least = finest_lattice(facts, wish, coarsest_lattice(facts, wish, at_limit), lattice.spacing).spacing;
+  const double least = finest_lattice(facts, spec, coarsest_lattice(facts, spec, at_limit), lattice.spacing).spacing;
   throw usage_error(fmt::format(
       "a lattice of {:.4g} mm has {} samples of {} bytes, and {} MB are free for them: the finest that fits has {:.4g} mm",
-      1e3 * lattice.spacing, readable_count(samples_of(lattice)), lattice.halves ? 2 : 4, readable_number(wish.most_bytes >> 20),
+      1e3 * lattice.spacing, readable_count(samples_of(lattice)), lattice.halves ? 2 : 4, readable_number(spec.most_bytes >> 20),
       1e3 * least * (1 + 5 * SAME_SPACING)));
 }
 
@@ -225,7 +225,7 @@ void sample_row(const MeshDistance& distance, const PreparedLattice& lattice, in
 void store_row(const std::vector<float>& row, std::size_t first, bool halves, std::vector<std::uint32_t>& words) {
   for (std::size_t i = 0; i < row.size(); ++i) {
     const std::size_t at = first + i;
-    std::atomic_ref<std::uint32_t> word(words[word_of(at, halves)]);
+    std::atomic_ref<std::uint32_t> word(words[word_index(at, halves)]);
     word.fetch_or(sample_bits(row[i], at, halves), std::memory_order_relaxed);
   }
 }
@@ -241,9 +241,9 @@ void sample_lattice(const MeshDistance& distance, PreparedLattice& lattice, int 
     }
   };
   const auto planes = static_cast<std::size_t>(lattice.nz);
-  std::function<void(std::size_t)> tell;
-  if (progress) tell = [&](std::size_t done) { progress(static_cast<double>(done) / static_cast<double>(planes)); };
-  in_parallel(planes, threads, sample_plane, tell);
+  std::function<void(std::size_t)> report_planes;
+  if (progress) report_planes = [&](std::size_t done) { progress(static_cast<double>(done) / static_cast<double>(planes)); };
+  in_parallel(planes, threads, sample_plane, report_planes);
   lattice.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
 }
 
@@ -281,25 +281,25 @@ core_f64::Vessel kernel_vessel(const PreparedLattice& lattice) {
 
 }  // namespace
 
-std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeWish& wish, double spacing) {
-  const PreparedLattice lattice = lay_lattice(facts, wish, spacing);
-  return lattice_fits(lattice, wish) ? std::optional(lattice) : std::nullopt;
+std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeSpec& spec, double spacing) {
+  const PreparedLattice lattice = lay_lattice(facts, spec, spacing);
+  return lattice_fits(lattice, spec) ? std::optional(lattice) : std::nullopt;
 }
 
 double forecast_seconds(std::size_t done, std::size_t all, double seconds) {
   return done > 0 ? seconds * static_cast<double>(all) / static_cast<double>(done) : 0;
 }
 
-MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeWish& wish,
+MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeSpec& spec,
                             const LatticeProgress& progress, const LatticeForecast& forecast) {
   const std::vector<Triple> points = surface_points(distance, mesh.mesh, SURFACE_SAMPLES);
   MeshLattice made;
   made.lattice =
-      wish.spacing ? given_lattice(mesh.facts, wish) : choose_lattice(distance, mesh.facts, points, wish, progress, made.at_limit);
-  if (forecast.say) forecast.say(made.lattice, seconds_of_rows(distance, made.lattice, wish.threads, forecast.clock));
-  sample_lattice(distance, made.lattice, wish.threads, progress);
+      spec.spacing ? given_lattice(mesh.facts, spec) : choose_lattice(distance, mesh.facts, points, spec, progress, made.at_limit);
+  if (forecast.say) forecast.say(made.lattice, seconds_of_rows(distance, made.lattice, spec.threads, forecast.clock));
+  sample_lattice(distance, made.lattice, spec.threads, progress);
   const core_f64::Vessel vessel = kernel_vessel(made.lattice);
-  made.error = largest_error(points, wish.threads, [&](const Triple& p) {
+  made.error = largest_error(points, spec.threads, [&](const Triple& p) {
     return core_f64::lattice_distance(vessel, {p[0], p[1], p[2]});
   });
   if (progress) progress(1);

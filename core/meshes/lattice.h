@@ -14,7 +14,7 @@ namespace wholehand {
 class MeshDistance;  // core/meshes/distance.h
 
 // What a lattice is to be.
-struct LatticeWish {
+struct LatticeSpec {
   std::optional<double> spacing;  // m, > 0; absent: as wide as `tolerance` allows
   double tolerance = 0.25e-3;     // m, for the error at the surface
   double margin = 0;              // m beyond the mesh that the lattice reaches, and two cells more
@@ -36,7 +36,7 @@ struct MeshLattice {
 constexpr int SURFACE_SAMPLES = 4096;  // points of the surface at which a lattice's error is measured
 
 // Where the samples of a lattice with this spacing (m, > 0) would lie, and in how many bits, without samples; none where it does not fit.
-std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeWish& wish, double spacing);
+std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeSpec& spec, double spacing);
 
 // Called with the share of the work that is done, from 0 to 1, ascending, by the thread that asked for the work; 0 as long as a spacing is
 // sought. What it throws ends the work.
@@ -56,7 +56,7 @@ struct LatticeForecast {
 // widest lattice whose error, rounding to 16 bits included, stays below the tolerance, or the finest that fits `most_bytes`: then `error`
 // may be above the tolerance. With 16 bits asked for, distances beyond 63.97 m are cut to that.
 // Throws Error (usage) where a given spacing does not fit, or none does.
-MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeWish& wish,
+MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeSpec& spec,
                             const LatticeProgress& progress = {}, const LatticeForecast& forecast = {});
 
 // What lies inside a lattice's surface.

@@ -106,20 +106,20 @@ std::string place_cavity(const VesselData& vessel, MeshBody& body) {
   return hint;
 }
 
-LatticeWish wish_of(const Scene& scene, const MeshData& data, bool is_off_scale, const MeshOptions& options) {
-  LatticeWish wish;
-  wish.spacing = data.lattice_spacing;
-  wish.margin = lattice_margin(scene);
+LatticeSpec lattice_spec(const Scene& scene, const MeshData& data, bool is_off_scale, const MeshOptions& options) {
+  LatticeSpec spec;
+  spec.spacing = data.lattice_spacing;
+  spec.margin = lattice_margin(scene);
   // what no hand holds is most likely in another unit: an answer soon, not a fine one
-  wish.most_bytes = data.lattice_spacing || !is_off_scale ? options.most_bytes : std::min(options.most_bytes, OFF_SCALE_LATTICE);
-  wish.threads = options.threads;
-  return wish;
+  spec.most_bytes = data.lattice_spacing || !is_off_scale ? options.most_bytes : std::min(options.most_bytes, OFF_SCALE_LATTICE);
+  spec.threads = options.threads;
+  return spec;
 }
 
 int bits_of(const PreparedLattice& lattice) { return lattice.halves ? 16 : 32; }
 
 std::string lattice_text(const MeshBody& body) {
-  const double tolerance = LatticeWish{}.tolerance;
+  const double tolerance = LatticeSpec{}.tolerance;
   const PreparedLattice& lattice = body.lattice;
   std::string text = fmt::format(
       "lattice of {:.4g} mm, {} x {} x {} samples of {} bits; at {} points of the surface distances are within {:.2g} mm",
@@ -208,13 +208,13 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
     if (!hint.empty()) say(hint);
   check_above_table(scene, data, name, facts.high[1] - facts.low[1]);
   auto body = std::make_shared<MeshBody>();
-  LatticeWish wish = wish_of(scene, data, size.is_other_unit, options);
+  LatticeSpec spec = lattice_spec(scene, data, size.is_other_unit, options);
   double spacing = 0;
   int bits = 0;
   if (lattices >> spacing >> bits && spacing > 0 && (bits == 16 || bits == 32)) {
-    wish.spacing = spacing;
-    wish.bits = bits;
-    wish.most_bytes = options.most_bytes;
+    spec.spacing = spacing;
+    spec.bits = bits;
+    spec.most_bytes = options.most_bytes;
   }
   cache_limit();  // throws here: a wrong limit is not the fault of grid_mm
   try {
@@ -228,10 +228,10 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
       if (!options.is_quiet) samples.emplace(std::uint64_t(lattice.nx) * lattice.ny * lattice.nz, 0, "samples");
       if (!is_long(seconds, facts.closed)) return;
       status.show("");
-      const auto& tell = options.say ? options.say : options.forecast;
-      if (tell) tell(name + ": " + forecast_text(lattice, seconds, facts.closed));
+      const auto& print_line = options.say ? options.say : options.forecast;
+      if (print_line) print_line(name + ": " + forecast_text(lattice, seconds, facts.closed));
     };
-    MeshLattice made = cached_lattice(checked, wish, options.cache_folder, progress, {announce, options.clock});
+    MeshLattice made = cached_lattice(checked, spec, options.cache_folder, progress, {announce, options.clock});
     samples.reset();
     status.show("");
     body->lattice = std::move(made.lattice);
@@ -277,7 +277,7 @@ std::string load_same_meshes(Scene& scene, const std::string& keys, const std::s
   MeshOptions options;
   options.lattices = lattices;
   options.is_quiet = is_quiet;
-  if (!is_quiet) options.forecast = say_note;
+  if (!is_quiet) options.forecast = print_note;
   Scene read = scene;
   try {
     load_meshes(read, options);
@@ -365,17 +365,17 @@ std::string reload_meshes(Scene& scene, const std::string& kept_in, const std::s
   } catch (const Error& error) {
     return error.what();
   }
-  const std::string trouble = load_same_meshes(scene, keys, lattices, is_quiet);
-  if (trouble.empty() || scene.file == lay) return trouble;
+  const std::string refusal = load_same_meshes(scene, keys, lattices, is_quiet);
+  if (refusal.empty() || scene.file == lay) return refusal;
   scene.file = lay;
-  return missing_mesh(scene, lay).empty() ? load_same_meshes(scene, keys, lattices, is_quiet) : trouble;
+  return missing_mesh(scene, lay).empty() ? load_same_meshes(scene, keys, lattices, is_quiet) : refusal;
 }
 
 void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes) {
   if (!has_meshes(scene)) return;
   MeshOptions options;
   options.most_bytes = largest_lattice(device_bytes ? device_bytes() : std::numeric_limits<std::uint64_t>::max());
-  options.say = say_note;
+  options.say = print_note;
   load_meshes(scene, options);
 }
 

@@ -95,15 +95,15 @@ Traits draw_grasp(const PeopleData& people, const Person& person, std::uint64_t 
 
 double largest_force(const Traits& traits) {
   constexpr double POUND = 4.4482216152605;  // N
-  return of(traits, Trait::strength) * 0.16 * 109 * POUND;
+  return traits[Trait::strength] * 0.16 * 109 * POUND;
 }
 
 double first_force(const Traits& traits, double weight) {
-  return of(traits, Trait::weight_guess) * weight / (2 * of(traits, Trait::friction)) / (1 - of(traits, Trait::margin));
+  return traits[Trait::weight_guess] * weight / (2 * traits[Trait::friction]) / (1 - traits[Trait::margin]);
 }
 
 double loaded_force(const Traits& traits, double first, double rise) {
-  return first + of(traits, Trait::gain) * rise / (1 - of(traits, Trait::margin));
+  return first + traits[Trait::gain] * rise / (1 - traits[Trait::margin]);
 }
 
 }  // namespace wholehand

@@ -45,11 +45,11 @@ struct AdviceLoop::Shared {
   Tick tick;
   VesselTracker tracker;
   std::shared_ptr<const Advice> newest;
-  std::vector<std::string> news;
+  std::vector<std::string> warnings;
   AdviceTally tally;
-  double last = 0;       // when the update before was there, s; 0: it was about no vessel
-  double asked = 0;      // since when an update is under way, s; 0: none is
-  bool is_told = false;  // that one is late
+  double last = 0;                // when the update before was there, s; 0: it was about no vessel
+  double asked = 0;               // since when an update is under way, s; 0: none is
+  bool is_late_reported = false;  // that one is late
 };
 
 namespace {
@@ -113,7 +113,7 @@ void AdviceLoop::Shared::go_on(Adviser& adviser) {
     std::vector<std::string> notes = adviser.notes();
     {
       const std::lock_guard lock(mutex);
-      for (std::string& note : notes) news.push_back("advice: " + std::move(note));
+      for (std::string& note : notes) warnings.push_back("advice: " + std::move(note));
     }
     put(std::move(advice), began, adviser.place());
   }
@@ -159,7 +159,7 @@ void AdviceLoop::Shared::end(const std::string& why) {
   const std::lock_guard lock(mutex);
   newest.reset();
   asked = 0;
-  news.push_back(fmt::format("advice: {}; the session goes on without advice", why));
+  warnings.push_back(fmt::format("advice: {}; the session goes on without advice", why));
 }
 
 bool AdviceLoop::Shared::is_late() const { return asked > 0 && monotonic_now() - asked > patience; }
@@ -207,14 +207,14 @@ std::shared_ptr<const Advice> AdviceLoop::newest() const {
   return shared_->is_late() ? nullptr : shared_->newest;
 }
 
-std::vector<std::string> AdviceLoop::news() {
+std::vector<std::string> AdviceLoop::take_warnings() {
   const std::lock_guard lock(shared_->mutex);
-  std::vector<std::string> news = std::exchange(shared_->news, {});
-  if (shared_->is_late() && !std::exchange(shared_->is_told, true)) {
-    news.push_back(
+  std::vector<std::string> warnings = std::exchange(shared_->warnings, {});
+  if (shared_->is_late() && !std::exchange(shared_->is_late_reported, true)) {
+    warnings.push_back(
         fmt::format("advice: the device has not answered for {:g} s; there is no advice until it does", shared_->patience));
   }
-  return news;
+  return warnings;
 }
 
 ShownGripSource& AdviceLoop::shown() { return shared_->shown; }

@@ -53,7 +53,7 @@ class AdviceLoop {
   std::shared_ptr<const Advice> newest() const;
   // Lines that the user must see, each once; from any thread: the device failed, and the advice has ended or goes on; or it does
   // not answer.
-  std::vector<std::string> news();
+  std::vector<std::string> take_warnings();
   // For the haptic thread.
   ShownGripSource& shown();
   // What it is computed on, as Adviser::place.

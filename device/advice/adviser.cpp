@@ -141,8 +141,8 @@ std::vector<Adviser::Found> Adviser::ask(int vessel, const std::vector<GripInput
     }
   };
   for (const std::string& note : backend_->run(request).notes) {
-    if (std::find(said_.begin(), said_.end(), note) != said_.end()) continue;
-    said_.push_back(note);
+    if (std::find(noted_.begin(), noted_.end(), note) != noted_.end()) continue;
+    noted_.push_back(note);
     notes_.push_back(note);
   }
   return found;

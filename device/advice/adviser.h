@@ -94,7 +94,7 @@ class Adviser {
   bool stands_ = true;             // that vessel, on the table
   std::optional<GripInput> last_;  // its best grip
   double share_ = 1;               // of the reach in which the next update looks about it
-  std::vector<std::string> notes_, said_;
+  std::vector<std::string> notes_, noted_;
 };
 
 }  // namespace wholehand

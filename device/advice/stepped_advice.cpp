@@ -73,7 +73,7 @@ std::shared_ptr<const Advice> SteppedAdvice::newest() const {
   return newest_;
 }
 
-std::vector<std::string> SteppedAdvice::news() {
+std::vector<std::string> SteppedAdvice::take_warnings() {
   const std::lock_guard lock(mutex_);
   return std::exchange(news_, {});
 }

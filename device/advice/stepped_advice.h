@@ -32,7 +32,7 @@ class SteppedAdvice final : public ShownGripSource {
 
   // From any thread, as those of AdviceLoop. The tally has no times.
   std::shared_ptr<const Advice> newest() const;
-  std::vector<std::string> news();
+  std::vector<std::string> take_warnings();
   AdviceTally tally() const;
 
  private:

@@ -55,7 +55,7 @@ class HidTransport final : public Transport {
   bool send_now(protocol::Bytes report) noexcept override { return send(report); }  // hidraw waits for the device
   bool get_feature(std::span<std::uint8_t> report, std::size_t& length) noexcept override;
   bool set_feature(protocol::Bytes report) noexcept override;
-  const char* trouble() const noexcept override { return trouble_; }
+  const char* last_error() const noexcept override { return last_error_; }
   bool panic(protocol::Bytes report) noexcept override {
     const int saved = errno;
     const ssize_t count = ::write(node_.fd(), report.data(), report.size());
@@ -65,13 +65,13 @@ class HidTransport final : public Transport {
 
  private:
   bool failed(const char* what) noexcept {
-    trouble_ = errno == ENODEV || errno == ENXIO ? "unplugged" : what;
+    last_error_ = errno == ENODEV || errno == ENXIO ? "unplugged" : what;
     return false;
   }
 
   Node node_;
   hid_device* device_ = nullptr;
-  const char* trouble_ = "";
+  const char* last_error_ = "";
 };
 
 // Reads the report descriptor before hidapi opens the node: hidapi 0.13.1 uses freed memory where that is no hidraw node, and a
@@ -121,7 +121,7 @@ ReadOutcome HidTransport::receive(std::span<std::uint8_t> into, std::size_t& len
     if (errno == EINTR && monotonic_now() < end) continue;  // a signal that somebody handles elsewhere
     if (errno == EINTR) return ReadOutcome::timeout;
     // no error number: poll() found the node hung up
-    trouble_ = errno == 0 || errno == EIO || errno == ENODEV ? "unplugged" : "read error";
+    last_error_ = errno == 0 || errno == EIO || errno == ENODEV ? "unplugged" : "read error";
     return ReadOutcome::error;
   }
 }

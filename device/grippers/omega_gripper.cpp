@@ -55,7 +55,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-std::string last_error(const DhdLibrary& dhd) {
+std::string dhd_error(const DhdLibrary& dhd) {
   const char* words = dhd.error_get_last_str();
   return printable(words && *words ? words : "no reason given");
 }
@@ -71,7 +71,7 @@ class Connection {
     if (id_ >= 0) return;
     throw failure_error(fmt::format(
         "{}: cannot open device {}: {}; likely another program has it open, or you may not use it (device/udev/60-wholehand.rules)",
-        address_of(number), number, last_error(dhd)));
+        address_of(number), number, dhd_error(dhd)));
   }
   ~Connection() { close(); }
   Connection(const Connection&) = delete;
@@ -146,15 +146,15 @@ class OmegaGripper final : public Gripper {
   const GripperLimits& limits() const noexcept override { return limits_; }
 
   // The SDK is thread-safe (docs/devices.md), so a second thread may call it; but a call that does not return may hold what others wait for.
-  LetGo let_go() noexcept override {
-    if (!is_enabled_) return LetGo::nothing;
-    if (send(GripperForce{})) return LetGo::written;
+  ReleaseResult release() noexcept override {
+    if (!is_enabled_) return ReleaseResult::no_force;
+    if (send(GripperForce{})) return ReleaseResult::written;
     fail_by("force not taken");
-    return LetGo::not_taken;
+    return ReleaseResult::refused;
   }
-  LetGo let_go_meanwhile() noexcept override {
-    if (!is_enabled_) return LetGo::nothing;
-    return is_open_ && send(GripperForce{}) ? LetGo::written : LetGo::not_taken;
+  ReleaseResult release_from_watchdog() noexcept override {
+    if (!is_enabled_) return ReleaseResult::no_force;
+    return is_open_ && send(GripperForce{}) ? ReleaseResult::written : ReleaseResult::refused;
   }
   void close() noexcept override {
     if (!is_open_) return;
@@ -164,7 +164,7 @@ class OmegaGripper final : public Gripper {
     is_open_ = false;  // before: no other thread may use a number that is given back
     connection_.close();
   }
-  LetGo panic() noexcept override { return is_enabled_ ? LetGo::not_asked : LetGo::nothing; }
+  ReleaseResult panic() noexcept override { return is_enabled_ ? ReleaseResult::not_attempted : ReleaseResult::no_force; }
 
   ReadOutcome read(GripperState& state, std::int64_t) noexcept override {
     GripperState fresh = state;
@@ -192,7 +192,7 @@ class OmegaGripper final : public Gripper {
     return send(force) || fail_by("force not taken");
   }
 
-  const char* trouble() const noexcept override { return trouble_.data(); }
+  const char* last_error() const noexcept override { return last_error_.data(); }
 
  private:
   // Before any force: none enabled, the watchdog on, the device's own maxima set. One user of an omega.7 found the gripper's at 1 N.
@@ -205,15 +205,15 @@ class OmegaGripper final : public Gripper {
     if (dhd_.set_watchdog(static_cast<unsigned char>(steps), id_) < 0) {
       // the SDK cannot be called when this program fails: without a watchdog the last force would stay on it
       throw failure_error(
-          fmt::format("{}: the device takes no watchdog ({}), and is not used without one", limits_.address, last_error(dhd_)));
+          fmt::format("{}: the device takes no watchdog ({}), and is not used without one", limits_.address, dhd_error(dhd_)));
     }
     if (watchdog > WATCHDOG_STEPS * WATCHDOG_STEP + WATCHDOG_STEP / 2) {
-      say_note(fmt::format("{}: the watchdog is set to {:.6g} ms, the longest of the device, instead of {:.6g} ms", limits_.address,
-                           WATCHDOG_STEPS * WATCHDOG_STEP * 1e3, watchdog * 1e3));
+      print_note(fmt::format("{}: the watchdog is set to {:.6g} ms, the longest of the device, instead of {:.6g} ms",
+                             limits_.address, WATCHDOG_STEPS * WATCHDOG_STEP * 1e3, watchdog * 1e3));
     }
     if (dhd_.set_max_force(limits_.force, id_) < 0 || dhd_.set_max_gripper_force(limits_.grip, id_) < 0) {
       throw failure_error(fmt::format("{}: the device does not take its maximum forces of {:g} N and {:g} N: {}", limits_.address,
-                                      limits_.force, limits_.grip, last_error(dhd_)));
+                                      limits_.force, limits_.grip, dhd_error(dhd_)));
     }
   }
 
@@ -243,14 +243,14 @@ class OmegaGripper final : public Gripper {
   }
 
   bool fail(const char* what) noexcept {
-    std::snprintf(trouble_.data(), trouble_.size(), "%s", what);
+    std::snprintf(last_error_.data(), last_error_.size(), "%s", what);
     return false;
   }
   // With the SDK's words, which may change under a pointer.
   bool fail_by(const char* what) noexcept {
     const char* words = dhd_.error_get_last_str();
-    std::snprintf(trouble_.data(), trouble_.size(), "%s: %s", what, words && *words ? words : "no reason given");
-    for (char* letter = trouble_.data(); *letter; ++letter)
+    std::snprintf(last_error_.data(), last_error_.size(), "%s: %s", what, words && *words ? words : "no reason given");
+    for (char* letter = last_error_.data(); *letter; ++letter)
       if (!is_plain(*letter)) *letter = *letter == '\n' ? ' ' : '?';
     return false;
   }
@@ -267,7 +267,7 @@ class OmegaGripper final : public Gripper {
   std::atomic<bool> is_enabled_{false};  // a force may be on; of any thread
   std::atomic<bool> is_open_{true};      // likewise
   std::uint32_t reads_ = 0;
-  std::array<char, 160> trouble_{};
+  std::array<char, 160> last_error_{};
 };
 
 // One line on a device that could be opened.

@@ -31,7 +31,7 @@ Rotation rotation_from_dhd(const double frame[3][3]);
 // that a stale measurement looks like a device at rest, and `time` is the SDK's clock at the read.
 // write() leaves the device without force until a read has been good, and then enables force with the first write.
 // panic() calls nothing, since no call of the SDK may be made from a signal handler (they lock and allocate): it is a second thread's part, by
-// let_go_meanwhile(), and the watchdog's.
+// release_from_watchdog(), and the watchdog's.
 //
 // Throws Error (usage: a watchdog that is no positive time; failure: no SDK, no such device, another session has it, another model, or
 // a device that takes no watchdog or not these maximum forces).

@@ -41,7 +41,7 @@ std::string place_of(const UdpAddress& address) {
   const bool has_brackets = address.family() == AF_INET6;
   return fmt::format("osc:{}{}{}:{}", has_brackets ? "[" : "", address.host(), has_brackets ? "]" : "", address.port());
 }
-std::string words_of(const UdpAddress& address) { return fmt::format("{} port {}", address.host(), address.port()); }
+std::string address_words(const UdpAddress& address) { return fmt::format("{} port {}", address.host(), address.port()); }
 
 // A force message as a datagram of its own.
 class ForceMessage {
@@ -100,27 +100,29 @@ class OscGripper final : public Gripper {
     release_ = kept({}, static_cast<int>(SessionState::released));
   }
   ~OscGripper() override {
-    if (has_hand_) let_go();
+    if (has_hand_) release();
   }
 
   const GripperLimits& limits() const noexcept override { return limits_; }
   void begin() noexcept override;
   ReadOutcome read(GripperState& state, std::int64_t tick) noexcept override;
   bool write(const GripperForce& force) noexcept override;
-  LetGo let_go() noexcept override;
-  const char* trouble() const noexcept override { return trouble_; }
-  LetGo panic() noexcept override {
+  ReleaseResult release() noexcept override;
+  const char* last_error() const noexcept override { return last_error_; }
+  ReleaseResult panic() noexcept override {
     // first the flag: a write that comes between sends no force either
     has_panicked_.store(true);
     bool is_taken = false;
     for (int k = 0; k < RELEASES; ++k) is_taken = socket_.send(release_.all(), to_) || is_taken;
-    return is_taken ? LetGo::written : LetGo::not_taken;
+    return is_taken ? ReleaseResult::written : ReleaseResult::refused;
   }
-  LetGo let_go_meanwhile() noexcept override { return socket_.send(take_away_.all(), to_) ? LetGo::written : LetGo::not_taken; }
+  ReleaseResult release_from_watchdog() noexcept override {
+    return socket_.send(take_away_.all(), to_) ? ReleaseResult::written : ReleaseResult::refused;
+  }
   void show(const Tick& tick) noexcept override { shown_ = static_cast<int>(tick.state); }
   bool is_done() const noexcept override { return is_done_; }
-  std::optional<std::string> news() override;
-  std::vector<std::string> remarks() const override;
+  std::optional<std::string> take_warning() override;
+  std::vector<std::string> notes_for_report() const override;
 
   // A warning for an address that others can reach; empty: no other can.
   std::string openness() const {
@@ -131,7 +133,7 @@ class OscGripper final : public Gripper {
   void wait_for_hand(double patience);
   // The hand's address and the forces that it bears, in words.
   std::string hand() const {
-    return fmt::format("{}{} {:g} N at the arm and {:g} N on each finger", words_of(hand_),
+    return fmt::format("{}{} {:g} N at the arm and {:g} N on each finger", address_words(hand_),
                        has_hello_ ? "; its hello says that it bears" : ", without a hello; so it has to bear", limits_.force,
                        limits_.grip);
   }
@@ -173,11 +175,11 @@ class OscGripper final : public Gripper {
   std::uint32_t reads_ = 0, writes_ = 0;
   int shown_ = 0;                 // state of the session
   const char* breach_ = nullptr;  // why the forces that it claimed to bear may be too much
-  const char* trouble_ = "";
+  const char* last_error_ = "";
   std::array<char, 120> unsent_{};  // words for what the system does not send
   Ignored ignored_;
   UdpAddress foreign_;  // the first of them; set before its count
-  bool is_foreign_told_ = false;
+  bool was_foreign_reported_ = false;
   ForceMessage message_;
   Kept take_away_, release_;
   std::array<char, LARGEST_DATAGRAM> datagram_{};
@@ -260,7 +262,7 @@ void OscGripper::meet(Caller& caller, const Heard& heard) {
   const bool is_hand = words.has_state || (heard.wrong && words.names_hello && words.names_state);
   if (is_hand && caller.wrong_hello)
     throw failure_error(
-        fmt::format("{}: the hello of {} cannot be read: {}", limits_.address, words_of(caller.from), caller.wrong_hello));
+        fmt::format("{}: the hello of {} cannot be read: {}", limits_.address, address_words(caller.from), caller.wrong_hello));
   if (!is_hand) return;
   hand_ = to_ = caller.from;
   has_hand_ = true;
@@ -294,7 +296,7 @@ void OscGripper::wait_for_hand(double patience) {
 
 void OscGripper::refuse_silence(double patience, const std::vector<Caller>& callers) const {
   std::string why = fmt::format("no {} came within {:g} s", osc::STATE, patience);
-  if (!callers.empty()) why += fmt::format("; {} sent something else", words_of(callers[0].from));
+  if (!callers.empty()) why += fmt::format("; {} sent something else", address_words(callers[0].from));
   if (callers.size() > 1) why += fmt::format(", and so did other senders: {}", callers.size() - 1);
   if (const char* wrong = ignored_.first_wrong.load())
     why += fmt::format("; datagrams that could not be read: {}, the first of them: {}", ignored_.malformed.load(), wrong);
@@ -319,7 +321,7 @@ ReadOutcome OscGripper::read(GripperState& state, std::int64_t tick) noexcept {
   for (int k = 0; k < MOST_DATAGRAMS && take_datagram(); ++k) {
   }
   if (breach_) {
-    trouble_ = breach_;
+    last_error_ = breach_;
     return ReadOutcome::error;
   }
   if (!is_finite(newest_)) {
@@ -330,7 +332,7 @@ ReadOutcome OscGripper::read(GripperState& state, std::int64_t tick) noexcept {
   is_missing_ = is_missing_ && !is_new_;
   follow(tick);
   if (is_missing_ || motion_.silence(tick) > OSC_SILENCE) {
-    trouble_ = "no new state for 50 ms";
+    last_error_ = "no new state for 50 ms";
     return ReadOutcome::timeout;
   }
   motion_.move(state, tick);
@@ -361,34 +363,34 @@ bool OscGripper::write(const GripperForce& force) noexcept {
   sent.grip = std::clamp(sent.grip, -limits_.grip, limits_.grip);
   if (++writes_ == 0) ++writes_;  // 0 takes the force away
   const bool is_taken = send(message_.of(writes_, newest_.sequence, sent, shown_));
-  if (!is_number) trouble_ = "a force that is NaN or infinite";
+  if (!is_number) last_error_ = "a force that is NaN or infinite";
   return is_taken && is_number;
 }
 
 bool OscGripper::send(std::span<const char> bytes) noexcept {
   if (socket_.send(bytes, to_)) return true;
   std::snprintf(unsent_.data(), unsent_.size(), "the system sends no datagram to it: %s", strerrordesc_np(errno));
-  trouble_ = unsent_.data();
+  last_error_ = unsent_.data();
   return false;
 }
 
-LetGo OscGripper::let_go() noexcept {
+ReleaseResult OscGripper::release() noexcept {
   bool is_taken = false;
   for (int k = 0; k < RELEASES; ++k) {
     if (k > 0) pause_for(RELEASE_PAUSE);
     is_taken = send(release_.all()) || is_taken;
   }
-  return is_taken ? LetGo::written : LetGo::not_taken;
+  return is_taken ? ReleaseResult::written : ReleaseResult::refused;
 }
 
-std::optional<std::string> OscGripper::news() {
-  if (is_foreign_told_ || ignored_.foreign.load() == 0) return std::nullopt;
-  is_foreign_told_ = true;
-  return fmt::format("{}: {} sends too, and is not obeyed: the hand is {}, which came first", limits_.address, words_of(foreign_),
-                     words_of(hand_));
+std::optional<std::string> OscGripper::take_warning() {
+  if (was_foreign_reported_ || ignored_.foreign.load() == 0) return std::nullopt;
+  was_foreign_reported_ = true;
+  return fmt::format("{}: {} sends too, and is not obeyed: the hand is {}, which came first", limits_.address,
+                     address_words(foreign_), address_words(hand_));
 }
 
-std::vector<std::string> OscGripper::remarks() const {
+std::vector<std::string> OscGripper::notes_for_report() const {
   std::vector<std::string> lines;
   if (const std::string line = openness(); !line.empty()) lines.push_back(line);
   if (const std::int64_t count = ignored_.malformed.load(); count > 0)

@@ -20,7 +20,7 @@ using protocol::Wrong;
 
 constexpr double START_PATIENCE = 1;  // s: for the first measurement; a device may have something to finish
 constexpr int MOST_QUEUES = 8;        // that one read takes: a device that is faster than its reader does not hold it up for ever
-constexpr double SHORTEST_OF_WISHED = 0.5;  // a device rounds its watchdog period down, and not to nothing
+constexpr double SHORTEST_OF_REQUESTED = 0.5;  // a device rounds its watchdog period down, and not to nothing
 
 // Forces beyond the device's limits are scaled to them, direction kept: the last guard before the wire.
 GripperForce limited(const GripperForce& force, const GripperLimits& limits) {
@@ -44,21 +44,23 @@ class ProtocolGripper final : public Gripper {
   const GripperLimits& limits() const noexcept override { return limits_; }
   ReadOutcome read(GripperState& state, std::int64_t) noexcept override;
   bool write(const GripperForce& force) noexcept override;
-  LetGo let_go() noexcept override {
-    if (transport_->send_now(release_)) return LetGo::written;
-    trouble_ = transport_->trouble();
-    return LetGo::not_taken;
+  ReleaseResult release() noexcept override {
+    if (transport_->send_now(release_)) return ReleaseResult::written;
+    last_error_ = transport_->last_error();
+    return ReleaseResult::refused;
   }
-  const char* trouble() const noexcept override { return trouble_; }
-  LetGo panic() noexcept override {
+  const char* last_error() const noexcept override { return last_error_; }
+  ReleaseResult panic() noexcept override {
     // first the flag: a write that comes between sends no force either
     has_panicked_.store(true);
-    return let_go_meanwhile();
+    return release_from_watchdog();
   }
-  LetGo let_go_meanwhile() noexcept override { return transport_->panic(release_) ? LetGo::written : LetGo::not_taken; }
+  ReleaseResult release_from_watchdog() noexcept override {
+    return transport_->panic(release_) ? ReleaseResult::written : ReleaseResult::refused;
+  }
 
   // The steps of the start; each throws Error (failure).
-  void release();
+  void send_release();
   void set_watchdog(double seconds);
   void wait_for_measurement();
 
@@ -71,7 +73,7 @@ class ProtocolGripper final : public Gripper {
   const protocol::OutputBytes release_;
   std::array<std::uint8_t, protocol::LARGEST_SIZE> buffer_{};
   std::uint32_t sequence_ = 0;
-  const char* trouble_ = "";
+  const char* last_error_ = "";
   std::atomic<bool> has_panicked_{false};
   static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 };
@@ -81,7 +83,7 @@ ReadOutcome ProtocolGripper::next(GripperState& state, double patience) noexcept
   std::size_t length = 0;
   const ReadOutcome outcome = transport_->receive(buffer_, length, patience);
   if (outcome != ReadOutcome::value) {
-    trouble_ = outcome == ReadOutcome::timeout ? "no report" : transport_->trouble();
+    last_error_ = outcome == ReadOutcome::timeout ? "no report" : transport_->last_error();
     return outcome;
   }
   protocol::InputReport report;
@@ -90,7 +92,7 @@ ReadOutcome ProtocolGripper::next(GripperState& state, double patience) noexcept
   if (wrong == Wrong::nothing && (report.status & protocol::WATCHDOG_TRIPPED)) wrong = Wrong::tripped;
   if (wrong == Wrong::nothing) wrong = measurements_.check(report);
   if (wrong != Wrong::nothing) {
-    trouble_ = words(wrong);
+    last_error_ = words(wrong);
     return ReadOutcome::error;
   }
   state = measurements_.state(report);
@@ -120,32 +122,32 @@ bool ProtocolGripper::write(const GripperForce& force) noexcept {
   report.flags = has_force ? protocol::ENABLE : 0;
   report.sequence = ++sequence_;
   const bool is_taken = transport_->send(protocol::encode(report));
-  if (!is_taken) trouble_ = transport_->trouble();
-  if (!is_number) trouble_ = "a force that is no number";
+  if (!is_taken) last_error_ = transport_->last_error();
+  if (!is_number) last_error_ = "a force that is no number";
   return is_taken && is_number;
 }
 
-void ProtocolGripper::release() {
-  if (!transport_->send_now(release_)) throw failure_error(fmt::format("{}: {}", limits_.address, transport_->trouble()));
+void ProtocolGripper::send_release() {
+  if (!transport_->send_now(release_)) throw failure_error(fmt::format("{}: {}", limits_.address, transport_->last_error()));
 }
 
 void ProtocolGripper::set_watchdog(double seconds) {
-  protocol::Watchdog wish, has;
-  wish.flags = protocol::WATCHDOG_ON;
-  wish.period = static_cast<std::uint32_t>(std::lround(seconds * protocol::SECOND));
+  protocol::Watchdog requested, has;
+  requested.flags = protocol::WATCHDOG_ON;
+  requested.period = static_cast<std::uint32_t>(std::lround(seconds * protocol::SECOND));
   std::size_t length = 0;
   buffer_[0] = protocol::WATCHDOG_ID;
-  if (!transport_->set_feature(protocol::encode(wish)) ||
+  if (!transport_->set_feature(protocol::encode(requested)) ||
       !transport_->get_feature({buffer_.data(), protocol::WATCHDOG_SIZE}, length))
-    throw failure_error(fmt::format("{}: its watchdog cannot be set: {}", limits_.address, transport_->trouble()));
+    throw failure_error(fmt::format("{}: its watchdog cannot be set: {}", limits_.address, transport_->last_error()));
   if (const Wrong wrong = protocol::decode({buffer_.data(), length}, has); wrong != Wrong::nothing)
     throw failure_error(fmt::format("{}: its watchdog cannot be read: {}", limits_.address, words(wrong)));
   if (!(has.flags & protocol::WATCHDOG_ON))
     throw failure_error(
         fmt::format("{}: its watchdog stays off, and without one nothing stops its force when this program does", limits_.address));
-  if (has.period > wish.period || has.period < SHORTEST_OF_WISHED * wish.period)
-    throw failure_error(
-        fmt::format("{}: asked for a watchdog of {:g} ms, it keeps {:g} ms", limits_.address, wish.period / 1e3, has.period / 1e3));
+  if (has.period > requested.period || has.period < SHORTEST_OF_REQUESTED * requested.period)
+    throw failure_error(fmt::format("{}: asked for a watchdog of {:g} ms, it keeps {:g} ms", limits_.address,
+                                    requested.period / 1e3, has.period / 1e3));
   limits_.watchdog = has.period / protocol::SECOND;
 }
 
@@ -153,16 +155,16 @@ void ProtocolGripper::set_watchdog(double seconds) {
 void ProtocolGripper::wait_for_measurement() {
   const double end = monotonic_now() + START_PATIENCE;
   GripperState state;
-  const char* last_error = nullptr;
+  const char* read_error = nullptr;
   while (monotonic_now() < end) {
     const ReadOutcome outcome = next(state, READ_PATIENCE);
     if (outcome == ReadOutcome::value) {
-      trouble_ = "";
+      last_error_ = "";
       return;
     }
-    if (outcome == ReadOutcome::error) last_error = trouble_;
+    if (outcome == ReadOutcome::error) read_error = last_error_;
   }
-  throw failure_error(fmt::format("{}: {}", limits_.address, last_error ? last_error : "it sends no measurements"));
+  throw failure_error(fmt::format("{}: {}", limits_.address, read_error ? read_error : "it sends no measurements"));
 }
 
 void check_watchdog(double watchdog_s) {
@@ -176,7 +178,7 @@ void check_watchdog(double watchdog_s) {
 std::string read_identity(Transport& transport, protocol::Identity& identity) {
   protocol::IdentityBytes bytes{protocol::IDENTITY_ID};
   std::size_t length = 0;
-  if (!transport.get_feature(bytes, length)) return fmt::format("it does not say what it is: {}", transport.trouble());
+  if (!transport.get_feature(bytes, length)) return fmt::format("it does not say what it is: {}", transport.last_error());
   const Wrong wrong = protocol::decode_identity({bytes.data(), length}, identity);
   if (wrong == Wrong::version)
     return fmt::format("it speaks version {} of the gripper protocol, this program version {}", identity.version,
@@ -204,7 +206,7 @@ std::unique_ptr<Gripper> open_over(std::unique_ptr<Transport> transport, const s
   if (const std::string wrong = read_identity(*transport, identity); !wrong.empty())
     throw failure_error(fmt::format("{}: {}", address, wrong));
   auto gripper = std::make_unique<ProtocolGripper>(std::move(transport), identity, address);
-  gripper->release();
+  gripper->send_release();
   gripper->set_watchdog(watchdog_s);
   gripper->wait_for_measurement();
   return gripper;

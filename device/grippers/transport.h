@@ -30,7 +30,7 @@ class Transport {
   virtual bool get_feature(std::span<std::uint8_t> report, std::size_t& length) noexcept = 0;
   virtual bool set_feature(protocol::Bytes report) noexcept = 0;
   // Why the last of the above failed: a few words that stay where they are.
-  virtual const char* trouble() const noexcept = 0;
+  virtual const char* last_error() const noexcept = 0;
   // Sends a report from a signal handler or a second thread, whatever the above are doing. False: not taken.
   virtual bool panic(protocol::Bytes report) noexcept = 0;
 };

@@ -101,12 +101,12 @@ struct Picked {
 };
 
 // The first gripper, of that id where one is given.
-Picked pick(libusb_context* context, const std::optional<Id>& wish) {
+Picked pick(libusb_context* context, const std::optional<Id>& requested) {
   Picked picked;
   const DeviceList list(context);
   for (libusb_device* device : list.all()) {
     const Id id = id_of(device);
-    if (wish && (id.vendor != wish->vendor || id.product != wish->product)) continue;
+    if (requested && (id.vendor != requested->vendor || id.product != requested->product)) continue;
     picked.is_there = true;
     const std::optional<UsbPart> part = gripper_part(device);
     if (!part) continue;
@@ -120,15 +120,16 @@ Picked pick(libusb_context* context, const std::optional<Id>& wish) {
 }  // namespace
 
 std::unique_ptr<Gripper> open_usb(const std::string& vid_pid, double watchdog_s) {
-  const std::optional<Id> wish = vid_pid.empty() ? std::nullopt : parse_id(vid_pid);
-  if (!vid_pid.empty() && !wish)
+  const std::optional<Id> requested = vid_pid.empty() ? std::nullopt : parse_id(vid_pid);
+  if (!vid_pid.empty() && !requested)
     throw usage_error(
         fmt::format("usb:{}: give the vendor and product id as VVVV:PPPP, four hexadecimal digits each, or leave them out for "
                     "the first gripper found",
                     vid_pid));
   UsbContext context = new_context();
-  Picked picked = pick(context.get(), wish);
-  if (!picked.device && !wish) throw failure_error(fmt::format("no gripper found over USB: no device has an {}", INTERFACE_WORDS));
+  Picked picked = pick(context.get(), requested);
+  if (!picked.device && !requested)
+    throw failure_error(fmt::format("no gripper found over USB: no device has an {}", INTERFACE_WORDS));
   if (!picked.device)
     throw failure_error(picked.is_there ? fmt::format("usb:{}: it is no open gripper: it has no {}", vid_pid, INTERFACE_WORDS)
                                         : fmt::format("usb:{}: no such device is plugged in", vid_pid));

@@ -96,7 +96,7 @@ void UsbTransport::find_descriptor() {
 }
 
 bool UsbTransport::failed(int code, const char* what) noexcept {
-  trouble_ = code == LIBUSB_ERROR_NO_DEVICE ? "unplugged" : what;
+  last_error_ = code == LIBUSB_ERROR_NO_DEVICE ? "unplugged" : what;
   return false;
 }
 
@@ -107,7 +107,7 @@ void UsbTransport::submit(Incoming& incoming) noexcept {
   incoming.is_in_flight = code == 0;
   if (code == 0) return;
   has_input_failed_ = true;
-  input_trouble_ = code == LIBUSB_ERROR_NO_DEVICE ? "unplugged" : "a transfer failed";
+  input_error_ = code == LIBUSB_ERROR_NO_DEVICE ? "unplugged" : "a transfer failed";
 }
 
 void UsbTransport::on_input(libusb_transfer* transfer) {
@@ -122,7 +122,7 @@ void UsbTransport::on_input(libusb_transfer* transfer) {
   }
   // for good: a session that goes on is no use, and where it was unplugged the transfers that follow say so
   self.has_input_failed_ = true;
-  self.input_trouble_ = status_words(transfer->status);
+  self.input_error_ = status_words(transfer->status);
 }
 
 void UsbTransport::take(const Incoming& incoming) noexcept {
@@ -165,7 +165,7 @@ ReadOutcome UsbTransport::receive(std::span<std::uint8_t> into, std::size_t& len
       return ReadOutcome::value;
     }
     if (has_input_failed_) {
-      trouble_ = input_trouble_;
+      last_error_ = input_error_;
       return ReadOutcome::error;
     }
     const double left = end - monotonic_now();
@@ -190,7 +190,7 @@ void UsbTransport::on_output(libusb_transfer* transfer) {
   self.late_outputs_ = 0;
   if (transfer->status != LIBUSB_TRANSFER_COMPLETED || transfer->actual_length != transfer->length) {
     self.has_output_failed_ = true;
-    self.output_trouble_ = transfer->status == LIBUSB_TRANSFER_COMPLETED ? "it took half a report" : status_words(transfer->status);
+    self.output_error_ = transfer->status == LIBUSB_TRANSFER_COMPLETED ? "it took half a report" : status_words(transfer->status);
     return;
   }
   if (!self.has_next_output_) return;
@@ -198,11 +198,11 @@ void UsbTransport::on_output(libusb_transfer* transfer) {
   // the process stood still meanwhile: the force of before must not come back
   if (monotonic_now() - self.next_since_ >= STALE_OUTPUT) return;
   // nor may it follow the zero of a handler or a second thread
-  if (self.next_panics_ != self.panics_ || is_letting_go()) return;
+  if (self.next_panics_ != self.panics_ || is_releasing()) return;
   self.output_bytes_ = self.next_output_;
   if (!self.submit_output()) {
     self.has_output_failed_ = true;
-    self.output_trouble_ = self.trouble_;
+    self.output_error_ = self.last_error_;
   }
 }
 
@@ -211,7 +211,7 @@ bool UsbTransport::send(protocol::Bytes report) noexcept {
   const int panics = panics_;
   if (is_output_in_flight_ && !wait_for(0)) return false;
   if (has_output_failed_) {
-    trouble_ = output_trouble_;
+    last_error_ = output_error_;
     return false;
   }
   auto& into = is_output_in_flight_ ? next_output_ : output_bytes_;

@@ -46,7 +46,7 @@ class UsbTransport final : public Transport {
   bool send_now(protocol::Bytes report) noexcept override;
   bool get_feature(std::span<std::uint8_t> report, std::size_t& length) noexcept override;
   bool set_feature(protocol::Bytes report) noexcept override;
-  const char* trouble() const noexcept override { return trouble_; }
+  const char* last_error() const noexcept override { return last_error_; }
   bool panic(protocol::Bytes report) noexcept override;
 
  private:
@@ -92,8 +92,8 @@ class UsbTransport final : public Transport {
   static_assert(std::atomic<int>::is_always_lock_free, "counted in a signal handler");
   int late_outputs_ = 0;
   bool has_input_failed_ = false;
-  const char *input_trouble_ = "", *output_trouble_ = "";  // what the callbacks found
-  const char* trouble_ = "";
+  const char *input_error_ = "", *output_error_ = "";  // what the callbacks found
+  const char* last_error_ = "";
 };
 
 }  // namespace wholehand

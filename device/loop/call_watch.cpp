@@ -16,7 +16,8 @@ namespace {
 constexpr long LOOK_NS = 2'000'000;     // between two looks
 constexpr double OWN_PATIENCE = 20e-3;  // s that its own call of the gripper may take before it counts as waiting
 constexpr int RESCUE_PATIENCE = 20;     // ms: less than any watchdog that matters, and ten looks
-static_assert(std::atomic<LetGo>::is_always_lock_free && std::atomic<bool>::is_always_lock_free, "used in a signal handler");
+static_assert(std::atomic<ReleaseResult>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+              "used in a signal handler");
 
 }  // namespace
 
@@ -58,23 +59,23 @@ void CallWatch::look() noexcept {
   handled_ = since;
   acted_at_ = monotonic_now();
   act();
-  if (outcome_ != LetGo::nothing) ++count_;  // a gripper whose forces go nowhere has no call that matters
+  if (outcome_ != ReleaseResult::no_force) ++count_;  // a gripper whose forces go nowhere has no call that matters
 }
 
 void CallWatch::act() noexcept {
-  outcome_ = LetGo::not_asked;
-  outcome_ = gripper_.let_go_meanwhile();
+  outcome_ = ReleaseResult::not_attempted;
+  outcome_ = gripper_.release_from_watchdog();
 }
 
-std::optional<std::string> CallWatch::news() {
-  if (is_told_) return std::nullopt;
-  const LetGo outcome = outcome_;
-  const bool is_waiting = acted_at_ > 0 && outcome == LetGo::not_asked && monotonic_now() - acted_at_ >= OWN_PATIENCE;
+std::optional<std::string> CallWatch::take_warning() {
+  if (was_reported_) return std::nullopt;
+  const ReleaseResult outcome = outcome_;
+  const bool is_waiting = acted_at_ > 0 && outcome == ReleaseResult::not_attempted && monotonic_now() - acted_at_ >= OWN_PATIENCE;
   if (count_ == 0 && !is_waiting) return std::nullopt;
-  is_told_ = true;
+  was_reported_ = true;
   SafeLine line;
   line.add("a call of the device did not return within ").add(CALL_PATIENCE * 1e3, 3).add(" ms; meanwhile ");
-  add_force_words(line, outcome, gripper_.noted(), gripper_.limits().watchdog);
+  add_force_words(line, outcome, gripper_.last_written_force(), gripper_.limits().watchdog);
   return std::string(line.text());
 }
 
@@ -83,19 +84,19 @@ double CallWatch::lasted() const noexcept {
   return since > 0 ? monotonic_now() - since : 0;
 }
 
-bool CallWatch::comes_back() const noexcept {
+bool CallWatch::returns_in_time() const noexcept {
   // counted, not timed: a process that is stopped meanwhile has not waited
   for (int k = 0; k < CALL_LOST * 1e3 && is_looking_; ++k) poll(nullptr, 0, 1);
   return !is_looking_;
 }
 
-LetGo CallWatch::rescue() noexcept {
+ReleaseResult CallWatch::rescue() noexcept {
   const int saved = errno;
   is_answered_ = false;
   is_wanted_ = true;
   for (int k = 0; k < RESCUE_PATIENCE && !is_answered_; ++k) poll(nullptr, 0, 1);
   errno = saved;
-  return is_answered_ ? outcome_.load() : LetGo::not_asked;
+  return is_answered_ ? outcome_.load() : ReleaseResult::not_attempted;
 }
 
 }  // namespace wholehand

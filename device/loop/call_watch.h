@@ -14,7 +14,7 @@ namespace wholehand {
 constexpr double CALL_PATIENCE = 12e-3;  // s: READ_PATIENCE and what a wait is longer than was asked
 constexpr double CALL_LOST = 1;          // s: a call that has not returned by then is given up, and the session with it
 
-// While it lives, a call of the gripper that does not return within CALL_PATIENCE has Gripper::let_go_meanwhile() called on its own thread, once a call.
+// While it lives, a call of the gripper that does not return within CALL_PATIENCE has Gripper::release_from_watchdog() called on its own thread, once a call.
 class CallWatch {
  public:
   // `gripper` must outlive it. Throws std::system_error where there is no thread.
@@ -36,20 +36,20 @@ class CallWatch {
 
   // ---- other threads ----
   // A line on the first call that did not return in time, once, as soon as it is known what became of the force.
-  std::optional<std::string> news();
+  std::optional<std::string> take_warning();
   // Calls that did not return in time.
   int count() const noexcept { return count_.load(); }
   // For how long the call under way has not returned, s; 0: none is under way.
   double lasted() const noexcept;
-  // What became of the last attempt to take the force away; not asked while one is under way.
-  LetGo outcome() const noexcept { return outcome_.load(); }
+  // What became of the last attempt to take the force away; not_attempted while one is under way.
+  ReleaseResult outcome() const noexcept { return outcome_.load(); }
 
   // Whether the second thread is, or comes within CALL_LOST, out of its own call of the gripper; asked while the haptic thread is in no call. If
   // not, the destructor would wait without end.
-  bool comes_back() const noexcept;
-  // Zero force by the second thread, for a signal handler or a program that is being ended, on any thread. Waits a while; not asked: the
+  bool returns_in_time() const noexcept;
+  // Zero force by the second thread, for a signal handler or a program that is being ended, on any thread. Waits a while; not_attempted: the
   // second thread has no answer.
-  LetGo rescue() noexcept;
+  ReleaseResult rescue() noexcept;
 
  private:
   void run() noexcept;
@@ -61,9 +61,9 @@ class CallWatch {
   std::atomic<bool> has_acted_{false}, is_over_{false}, is_wanted_{false}, is_answered_{false}, is_looking_{false};
   std::atomic<int> count_{0};
   std::atomic<double> acted_at_{0};  // s on the clock
-  std::atomic<LetGo> outcome_{LetGo::nothing};
+  std::atomic<ReleaseResult> outcome_{ReleaseResult::no_force};
   double handled_ = 0;  // beginning of the last call that was acted upon, s on the clock
-  bool is_told_ = false;
+  bool was_reported_ = false;
   std::thread thread_;  // last: it uses all of the above
 };
 

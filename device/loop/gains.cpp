@@ -81,7 +81,7 @@ void refuse_unstable_gains(const Scene& scene, std::array<double, 2> device_gap,
   }
   for (GripLoop loop : light_grips(live.rate)) {
     loop.k_open = scene.force.k_open;
-    if (!dies_away(loop))
+    if (!decays(loop))
       refuse(fmt::format("[force] k_open_N_m = {:g}", scene.force.k_open), gain_limits(live.rate, live.damping).k_open);
   }
 }

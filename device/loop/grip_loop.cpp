@@ -156,7 +156,7 @@ GripLoopResult hold_and_tilt(const GripLoop& loop) {
 }
 
 // Linear about the grasp: larger in the last quarter than in the second is growth.
-bool dies_away(const GripLoop& asked) {
+bool decays(const GripLoop& asked) {
   GripLoop loop = asked;
   loop.excess = 0;
   const int samples = static_cast<int>(LINEAR_TIME * loop.rate);
@@ -177,7 +177,7 @@ double largest_k_open(const GripLoop& asked) {
   GripLoop loop = asked;
   return largest_stable([&loop](double k_open) {
     loop.k_open = k_open;
-    return dies_away(loop);
+    return decays(loop);
   });
 }
 

@@ -46,7 +46,7 @@ GripLoopResult hold_and_tilt(const GripLoop& loop);
 constexpr double GRIP_SWING = 0.2e-3;  // m
 
 // Whether what a step of F_base sets in motion dies away: by simulation without tilt, clamp or band.
-bool dies_away(const GripLoop& loop);
+bool decays(const GripLoop& loop);
 // The largest k_open, N/m, at which it does, found as largest_stable does.
 double largest_k_open(const GripLoop& loop);
 // By theory: where the sampled spring and the finger are linearly stable (no user), and where the user's delayed integral is: k_open /

@@ -13,7 +13,7 @@
 
 #include "base/text/error.h"
 #include "core/vectors.h"
-#include "device/loop/let_go.h"
+#include "device/loop/release_result.h"
 #include "device/session/tick.h"
 
 namespace wholehand {
@@ -62,49 +62,49 @@ class Gripper {
   // False: the device did not take it.
   virtual bool write(const GripperForce& force) noexcept = 0;
   // No force, as the last thing that is written: returns when the device has it, or does not take it. May wait for some milliseconds. What this,
-  // panic() and let_go_meanwhile() answer for a gripper whose forces go nowhere is that there is nothing; a device says otherwise.
-  virtual LetGo let_go() noexcept {
+  // panic() and release_from_watchdog() answer for a gripper whose forces go nowhere is no_force; a device says otherwise.
+  virtual ReleaseResult release() noexcept {
     write({});
-    return LetGo::nothing;
+    return ReleaseResult::no_force;
   }
-  // The last of all calls, after let_go(), made where the haptic thread is watched: the library of a device may not return from
+  // The last of all calls, after release(), made where the haptic thread is watched: the library of a device may not return from
   // leaving it either. What is left to do afterwards is the destructor's, which nobody watches.
   virtual void close() noexcept {}
-  // Why the last read, write or let_go failed: a few words that stay where they are until the next of these ("unplugged"). Never null.
-  virtual const char* trouble() const noexcept { return ""; }
-  // Zero force as far as a signal handler may do that, from any thread, whatever the haptic thread was doing. Not asked: nothing of this
+  // Why the last read, write or release failed: a few words that stay where they are until the next of these ("unplugged"). Never null.
+  virtual const char* last_error() const noexcept { return ""; }
+  // Zero force as far as a signal handler may do that, from any thread, whatever the haptic thread was doing. not_attempted: nothing of this
   // kind is safe there.
-  virtual LetGo panic() noexcept { return LetGo::nothing; }
+  virtual ReleaseResult panic() noexcept { return ReleaseResult::no_force; }
   // Zero force from a second thread while the haptic thread is in a call that does not return. It may wait for as long as that call does; the
   // session may go on afterwards, its next force beginning at zero.
-  virtual LetGo let_go_meanwhile() noexcept { return LetGo::nothing; }
+  virtual ReleaseResult release_from_watchdog() noexcept { return ReleaseResult::no_force; }
   // A line that the user must see now, once; asked from time to time by another thread than the haptic one, which it does not make wait.
-  virtual std::optional<std::string> news() { return std::nullopt; }
+  virtual std::optional<std::string> take_warning() { return std::nullopt; }
   // Oddities, for the report of a session that is over.
-  virtual std::vector<std::string> remarks() const { return {}; }
+  virtual std::vector<std::string> notes_for_report() const { return {}; }
   // What is on the screen after this tick: for simulated users, and hands that receive the session's state.
   virtual void show(const Tick&) noexcept {}
   // The number that the next tick must have: a recording's, in which some may be missing. -1: the loop's own
   // clock counts.
-  virtual std::int64_t dictated_tick() const noexcept { return -1; }
+  virtual std::int64_t replayed_tick() const noexcept { return -1; }
   // Whether its user is done: a simulated user, a recording at its end.
   virtual bool is_done() const noexcept { return false; }
   // Whether the recording has zero force in the tick that was read last though the method wanted one: the force began there, or anew after a stall.
-  virtual bool dictates_zero() const noexcept { return false; }
+  virtual bool replays_zero() const noexcept { return false; }
 
   // The force of the last write that was begun, for messages from another thread or a signal handler: a write that fails half-way may
   // have reached the device.
-  void note(const GripperForce& force) noexcept {
-    noted_arm_.store(norm(force.arm), std::memory_order_relaxed);
-    noted_grip_.store(std::abs(force.grip), std::memory_order_relaxed);
+  void set_last_written_force(const GripperForce& force) noexcept {
+    written_arm_.store(norm(force.arm), std::memory_order_relaxed);
+    written_grip_.store(std::abs(force.grip), std::memory_order_relaxed);
   }
-  ForceSize noted() const noexcept {
-    return {noted_arm_.load(std::memory_order_relaxed), noted_grip_.load(std::memory_order_relaxed)};
+  ForceSize last_written_force() const noexcept {
+    return {written_arm_.load(std::memory_order_relaxed), written_grip_.load(std::memory_order_relaxed)};
   }
 
  private:
   static_assert(std::atomic<double>::is_always_lock_free, "read in a signal handler");
-  std::atomic<double> noted_arm_{0}, noted_grip_{0};  // N
+  std::atomic<double> written_arm_{0}, written_grip_{0};  // N
 };
 
 constexpr double PAPER_FORCE = 12, PAPER_GRIP = 8;  // N: limits of the gripper in the paper, and of those that stand in for it

@@ -57,15 +57,15 @@ double HapticLoop::clock() const noexcept { return options_.is_simulated ? 0 : m
 
 // The next tick that is not over yet. A replay dictates the number that was recorded.
 std::int64_t HapticLoop::next_number(std::int64_t number) noexcept {
-  const std::int64_t dictated = gripper_.dictated_tick();
-  if (dictated > number) return dictated;
+  const std::int64_t replayed = gripper_.replayed_tick();
+  if (replayed > number) return replayed;
   return number < 0 ? number + 1 : number_now(number + 1);
 }
 
 // The tick that it is by the clock, `number` or later; what lies between is missed. After a stall at least so late that the guard sees it in the
 // numbers, from which a replay makes the same forces.
 std::int64_t HapticLoop::number_now(std::int64_t number) noexcept {
-  if (options_.is_simulated || gripper_.dictated_tick() >= 0) return number;
+  if (options_.is_simulated || gripper_.replayed_tick() >= 0) return number;
   const double moment = clock();
   auto passed = static_cast<std::int64_t>(std::floor((moment - start_) / period_));
   if (wrote_ > 0 && (has_stalled_ || moment - wrote_ >= STALL)) passed = std::max(passed, wrote_in_ + guard_.stall_periods());
@@ -110,7 +110,7 @@ bool HapticLoop::step(std::int64_t number, double due) noexcept {
     return false;
   }
   // what a recording dictates was on time when it counted
-  const bool is_late = late_ >= live_.late_steps && gripper_.dictated_tick() < 0;
+  const bool is_late = late_ >= live_.late_steps && gripper_.replayed_tick() < 0;
   const Fault fault = is_late ? Fault::late : guard_.check(outcome, state_, number);
   if (fault != Fault::none) {
     release(fault, tick);
@@ -153,10 +153,10 @@ bool HapticLoop::step(std::int64_t number, double due) noexcept {
 bool HapticLoop::write(Tick& tick) noexcept {
   const double began = clock();
   const bool is_old =
-      wrote_ > 0 && began - wrote_ >= STALL && tick.number - wrote_in_ < guard_.stall_periods() && gripper_.dictated_tick() < 0;
-  if (is_old || gripper_.dictates_zero() || is_letting_go()) tick.written = {};
+      wrote_ > 0 && began - wrote_ >= STALL && tick.number - wrote_in_ < guard_.stall_periods() && gripper_.replayed_tick() < 0;
+  if (is_old || gripper_.replays_zero() || is_releasing()) tick.written = {};
   if (is_old) has_stalled_ = true;
-  gripper_.note(tick.written);
+  gripper_.set_last_written_force(tick.written);
   enter(began);
   const bool is_written = gripper_.write(tick.written);
   leave();
@@ -175,7 +175,7 @@ void HapticLoop::end(Fault fault, std::int64_t number) noexcept {
 // No force, at once and without slew; the report keeps the last tick.
 void HapticLoop::release(Fault fault, Tick& tick) noexcept {
   // the fault and its words first: letting go may have words of its own, or may not return
-  std::snprintf(trouble_.data(), trouble_.size(), "%s", gripper_.trouble());
+  std::snprintf(last_error_.data(), last_error_.size(), "%s", gripper_.last_error());
   tick.state = SessionState::released;
   tick.fault = fault;
   tick.wanted = tick.written = {};
@@ -185,17 +185,17 @@ void HapticLoop::release(Fault fault, Tick& tick) noexcept {
   report_.fault = fault;
   is_ending_ = true;
   enter(clock());
-  report_.let_go = gripper_.let_go();
+  report_.release = gripper_.release();
   leave();
-  if (report_.let_go == LetGo::not_taken) {
-    std::snprintf(let_go_trouble_.data(), let_go_trouble_.size(), "%s", gripper_.trouble());
+  if (report_.release == ReleaseResult::refused) {
+    std::snprintf(release_error_.data(), release_error_.size(), "%s", gripper_.last_error());
   } else {
-    gripper_.note({});
+    gripper_.set_last_written_force({});
   }
-  let_go_ = report_.let_go;
+  release_ = report_.release;
   try {
-    report_.trouble = trouble_.data();
-    report_.let_go_trouble = let_go_trouble_.data();
+    report_.error = last_error_.data();
+    report_.release_error = release_error_.data();
   } catch (...) {  // no memory for words
   }
   if (sink_) sink_(tick);
@@ -205,9 +205,9 @@ std::optional<LoopReport> HapticLoop::ending() const {
   if (!is_ending_) return std::nullopt;
   LoopReport ending;
   ending.fault = report_.fault;
-  ending.trouble = trouble_.data();
-  ending.let_go = let_go_;
-  if (ending.let_go == LetGo::not_taken) ending.let_go_trouble = let_go_trouble_.data();
+  ending.error = last_error_.data();
+  ending.release = release_;
+  if (ending.release == ReleaseResult::refused) ending.release_error = release_error_.data();
   ending.force = report_.force;
   ending.ticks = report_.ticks;
   ending.missed = report_.missed;

@@ -26,10 +26,10 @@ struct LoopOptions {
 // How a loop went.
 struct LoopReport {
   Fault fault = Fault::none;
-  std::string trouble;            // the gripper's words for it
-  LetGo let_go = LetGo::nothing;  // what became of the force at the end
-  std::string let_go_trouble;     // the gripper's words where zero force was not taken
-  GripperForce force;             // the last that the device took before
+  std::string error;                                // the gripper's words for it
+  ReleaseResult release = ReleaseResult::no_force;  // what became of the force at the end
+  std::string release_error;                        // the gripper's words where zero force was not taken
+  GripperForce force;                               // the last that the device took before
   std::int64_t ticks = 0;
   std::int64_t missed = 0;  // periods without a tick, since the one before took too long
   std::int64_t late = 0;    // steps that took longer than a period, or whose read took longer than CALL_PATIENCE
@@ -54,7 +54,7 @@ class HapticLoop {
 
   const LoopReport& report() const noexcept { return report_; }
   // The report of a loop that has come to its end, from any thread, also while its last call of the gripper has not returned:
-  // let_go is not_asked then. Nothing: it still runs.
+  // release is not_attempted then. Nothing: it still runs.
   std::optional<LoopReport> ending() const;
   const Guard& guard() const noexcept { return guard_; }
 
@@ -89,9 +89,9 @@ class HapticLoop {
   GripperState state_;         // of the last read
   LoopReport report_;
   // words of report_, before they are strings; set before the flags below
-  std::array<char, 200> trouble_{}, let_go_trouble_{};
+  std::array<char, 200> last_error_{}, release_error_{};
   std::atomic<bool> is_ending_{false};  // all of report_ stays as it is, but for what became of the force
-  std::atomic<LetGo> let_go_{LetGo::not_asked};
+  std::atomic<ReleaseResult> release_{ReleaseResult::not_attempted};
 };
 
 }  // namespace wholehand

@@ -15,9 +15,9 @@ namespace wholehand {
 namespace {
 
 // from outside; the real-time ones are added
-constexpr FailureSignal WISHES[] = {{SIGQUIT, "SIGQUIT"}, {SIGALRM, "SIGALRM"},     {SIGUSR1, "SIGUSR1"}, {SIGUSR2, "SIGUSR2"},
-                                    {SIGXCPU, "SIGXCPU"}, {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"}, {SIGPWR, "SIGPWR"},
-                                    {SIGIO, "SIGIO"},     {SIGSTKFLT, "SIGSTKFLT"}};
+constexpr FailureSignal END_REQUESTS[] = {
+    {SIGQUIT, "SIGQUIT"},     {SIGALRM, "SIGALRM"}, {SIGUSR1, "SIGUSR1"}, {SIGUSR2, "SIGUSR2"}, {SIGXCPU, "SIGXCPU"},
+    {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"}, {SIGPWR, "SIGPWR"},   {SIGIO, "SIGIO"},     {SIGSTKFLT, "SIGSTKFLT"}};
 // the first of them asks the session to end, another one to end at once
 constexpr FailureSignal INTERRUPTS[] = {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
 // the write that meets them fails by itself
@@ -44,20 +44,20 @@ const char* name_of(int signal, const FailureSignal (&all)[N]) {
 }
 
 // What becomes of the force, into the line.
-void let_go(Gripper& gripper, SafeLine& line) {
-  const ForceSize last = gripper.noted();
-  LetGo outcome = LetGo::not_taken;
+void release_in_panic(Gripper& gripper, SafeLine& line) {
+  const ForceSize last = gripper.last_written_force();
+  ReleaseResult outcome = ReleaseResult::refused;
   // once: a panic() that fails comes back here
   if (depth == 1) {
     outcome = gripper.panic();
     CallWatch* const watch = watch_at_hand;
-    if (outcome == LetGo::not_asked && watch) outcome = watch->rescue();
+    if (outcome == ReleaseResult::not_attempted && watch) outcome = watch->rescue();
   }
   add_force_words(line, outcome, last, depth <= 2 ? gripper.limits().watchdog : 0);
 }
 
-// `line` says what happened, `wish` what the user should do.
-[[noreturn]] void end_here(SafeLine& line, const char* wish) {
+// `line` says what happened, `advice` what the user should do.
+[[noreturn]] void end_here(SafeLine& line, const char* advice) {
   // the first one lets go; another thread that fails meanwhile waits for it to end the process
   const pid_t self = gettid();
   pid_t none = 0;
@@ -69,10 +69,10 @@ void let_go(Gripper& gripper, SafeLine& line) {
     // a force that the haptic thread is handing over meanwhile must not come after the zero; the next one is zero itself
     poll(nullptr, 0, WRITE_LASTS);
     line.add("; ");
-    let_go(*gripper, line);
+    release_in_panic(*gripper, line);
     line.add(", state released");
   }
-  line.add(wish).add("\n");
+  line.add(advice).add("\n");
   const ssize_t written = write(STDERR_FILENO, line.text().data(), line.text().size());
   static_cast<void>(written);
   _exit(3);
@@ -81,7 +81,7 @@ void let_go(Gripper& gripper, SafeLine& line) {
 [[noreturn]] void on_panic(int signal) {
   const char* const failure = name_of(signal, FAILURE_SIGNALS);
   const bool has_failed = *failure != '\0';
-  const char* name = signal == SIGABRT ? "an assertion or an uncaught error" : has_failed ? failure : name_of(signal, WISHES);
+  const char* name = signal == SIGABRT ? "an assertion or an uncaught error" : has_failed ? failure : name_of(signal, END_REQUESTS);
   if (*name == '\0') name = name_of(signal, INTERRUPTS);
   SafeLine line;
   line.add(has_failed ? "wholehand: live: the program failed (" : "wholehand: live: ended by a signal (").add(name);
@@ -112,7 +112,7 @@ void watch_exits() {
 
 void end_by_signal(int signal) noexcept { on_panic(signal); }
 
-bool is_letting_go() noexcept { return first.load(std::memory_order_relaxed) != 0; }
+bool is_releasing() noexcept { return first.load(std::memory_order_relaxed) != 0; }
 
 void PanicGuard::set(int signal, const struct sigaction& action) {
   Before before;
@@ -132,7 +132,7 @@ PanicGuard::PanicGuard(Gripper& gripper, CallWatch* watch) {
     struct sigaction now {};
     if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) set(signal, action);
   };
-  for (const FailureSignal& wish : WISHES) set_unless_ignored(wish.number);
+  for (const FailureSignal& request : END_REQUESTS) set_unless_ignored(request.number);
   for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) set_unless_ignored(signal);
   struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;

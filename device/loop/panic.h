@@ -25,7 +25,7 @@ class HandlerStack {
 };
 
 // Whether a signal or an exit is ending the process: then no thread may write another force than zero. One load of an atomic.
-bool is_letting_go() noexcept;
+bool is_releasing() noexcept;
 
 // What a PanicGuard does at a signal that would end the process at once, for the handler of a signal that it does not take over:
 // SIGINT, SIGTERM or SIGHUP for the second time. Safe in a signal handler.

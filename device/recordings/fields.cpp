@@ -40,12 +40,12 @@ RecordedField always_finite(RecordedField field) {
   return field;
 }
 
-RecordedField word_of(const char* name, const char* long_name, const char* comment, std::size_t offset) {
+RecordedField word_field(const char* name, const char* long_name, const char* comment, std::size_t offset) {
   return {name, "1", long_name, comment, "", RecordedAs::word, offset};
 }
 
-RecordedField integer_of(const char* name, const char* long_name, const char* comment, double least, double most,
-                         std::size_t offset) {
+RecordedField integer_field(const char* name, const char* long_name, const char* comment, double least, double most,
+                            std::size_t offset) {
   return {name, "1", long_name, comment, "", RecordedAs::integer, offset, least, most};
 }
 
@@ -67,16 +67,16 @@ std::vector<RecordedField> make_recorded_fields() {
       reals("device_rotation", "1", "rotation of the gripper in the device frame", NOT_SAID, "row column",
             offsetof(Tick, device.rotation)),
       real_one("device_gap", "m", "gap of the gripper", NOT_SAID, offsetof(Tick, device.gap)),
-      word_of("device_buttons", "pressed buttons", "bit k: button k", offsetof(Tick, device.buttons)),
-      word_of("device_sequence", "number of the measurement by the device", NOT_SAID, offsetof(Tick, device.sequence)),
+      word_field("device_buttons", "pressed buttons", "bit k: button k", offsetof(Tick, device.buttons)),
+      word_field("device_sequence", "number of the measurement by the device", NOT_SAID, offsetof(Tick, device.sequence)),
       real_one("device_time", "s", "time of the measurement by the device's clock", "0 where it has none",
                offsetof(Tick, device.time)),
       // ---- the session ----
       flag_of("state", "state of the session", SESSION_STATE_NAMES, offsetof(Tick, state)),
-      integer_of("vessel_index", "vessel that is touched, held or on its way back", "-1: none", -1, LIVE_VESSELS - 1,
-                 offsetof(Tick, vessel)),
-      integer_of("guidance_index", "guidance point that is shown", "modulo their count on each vessel; -1: none", -1, LARGEST_INT,
-                 offsetof(Tick, guidance)),
+      integer_field("vessel_index", "vessel that is touched, held or on its way back", "-1: none", -1, LIVE_VESSELS - 1,
+                    offsetof(Tick, vessel)),
+      integer_field("guidance_index", "guidance point that is shown", "modulo their count on each vessel; -1: none", -1,
+                    LARGEST_INT, offsetof(Tick, guidance)),
       // ---- the hand ----
       reals("hand_midpoint", "m", "midpoint of the tips of thumb and index finger, world frame", NOT_SAID, "xyz",
             offsetof(Tick, middle)),
@@ -86,8 +86,8 @@ std::vector<RecordedField> make_recorded_fields() {
       real_one("closure", "1", "closure of thumb and index finger: 0 open, 1 closed", NOT_SAID, offsetof(Tick, closure)),
       reals("tips", "m", "tips of thumb and index finger, world frame", NOT_SAID, "contact xyz", offsetof(Tick, tips)),
       reals("proxies", "m", "proxies of the tips, world frame", NOT_SAID, "contact xyz", offsetof(Tick, proxies)),
-      word_of("touch_mask", "points touching in the posed hand", BITS_OF_JOINTS, offsetof(Tick, touch_mask)),
-      word_of("used_mask", "fingers with a touching point", BITS_OF_FINGERS, offsetof(Tick, used_mask)),
+      word_field("touch_mask", "points touching in the posed hand", BITS_OF_JOINTS, offsetof(Tick, touch_mask)),
+      word_field("used_mask", "fingers with a touching point", BITS_OF_FINGERS, offsetof(Tick, used_mask)),
       // ---- the vessel ----
       reals("vessel_place", "m", "origin of that vessel, world frame", NOT_SAID, "xyz", offsetof(Tick, vessel_place)),
       reals("vessel_rotation", "1", "rotation of that vessel in the world frame", NOT_SAID, "row column",
@@ -125,10 +125,10 @@ std::vector<RecordedField> make_recorded_fields() {
       always_finite(real_one("written_gripper_force", "N", "force on each finger after limits, ramp and slew", "positive opens",
                              offsetof(Tick, written.grip))),
       // ---- counts and timing ----
-      integer_of("grasps", "grasps since the start", NOT_SAID, 0, LARGEST_INT, offsetof(Tick, grasps)),
-      integer_of("grips_lost", "grips lost since the start", NOT_SAID, 0, LARGEST_INT, offsetof(Tick, lost)),
-      integer_of("destinations", "vessels set down at the destination since the start", NOT_SAID, 0, LARGEST_INT,
-                 offsetof(Tick, destinations)),
+      integer_field("grasps", "grasps since the start", NOT_SAID, 0, LARGEST_INT, offsetof(Tick, grasps)),
+      integer_field("grips_lost", "grips lost since the start", NOT_SAID, 0, LARGEST_INT, offsetof(Tick, lost)),
+      integer_field("destinations", "vessels set down at the destination since the start", NOT_SAID, 0, LARGEST_INT,
+                    offsetof(Tick, destinations)),
       flag_of("task_done", "whether the task is done", YES_NO_NAMES, offsetof(Tick, task_done)),
       always_finite(real_one("latency", "s", "from the tick's time to when the loop woke", NOT_SAID, offsetof(Tick, latency))),
       always_finite(real_one("step_time", "s", "from having the measurement until the force was written",

@@ -312,7 +312,7 @@ std::string dimension_names(const Header& header, const classic::Variable& varia
   return joined(names, " ");
 }
 
-RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
+RecordingInfo recording_info(const Header& header, const FixedValues& fixed_values) {
   const Attribute* content = header.attribute("content");
   if (!content || content->bytes != CONTENT) throw usage_error("is not a recording of a session, but another NetCDF file");
   check_version("", recorded_line(header, "version"), "record the session again");

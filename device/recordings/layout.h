@@ -28,7 +28,7 @@ void add_end(classic::Header& header, const RecordingEnd& end);
 // Both throw Error (usage), without the file's name, where something is missing, cannot be or is not what was written. `fixed_values` gives the
 // bytes of a fixed variable.
 using FixedValues = std::function<std::string(const classic::Variable&)>;
-RecordingInfo info_of(const classic::Header& header, const FixedValues& fixed_values);
+RecordingInfo recording_info(const classic::Header& header, const FixedValues& fixed_values);
 std::optional<RecordingEnd> end_of(const classic::Header& header);
 
 // The names of a variable's dimensions, in one line.

@@ -142,7 +142,7 @@ Recording read_recorded_file(const RecordedFile& file) {
   if (kind != FileKind::recording && kind != FileKind::unknown) throw usage_error(wrong_kind(kind, "a recording"));
   const classic::Header header = classic::parse_header(start, file.size());
   Recording recording;
-  recording.info = info_of(header, [&file](const classic::Variable& variable) {
+  recording.info = recording_info(header, [&file](const classic::Variable& variable) {
     std::string bytes;
     file.read(bytes, variable.size, variable.begin);
     return bytes;

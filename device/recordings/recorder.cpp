@@ -31,15 +31,15 @@ bool Recorder::drain() {
   if (observer_) observer_(block_);
   // after trouble the writer takes nothing, and what comes is let go
   if (writer_) writer_->append(block_);
-  tell_trouble();
+  keep_error();
   return true;
 }
 
-void Recorder::tell_trouble() {
-  if (!writer_ || writer_->trouble() == reported_) return;
-  reported_ = writer_->trouble();
+void Recorder::keep_error() {
+  if (!writer_ || writer_->last_error() == reported_) return;
+  reported_ = writer_->last_error();
   const std::lock_guard lock(mutex_);
-  trouble_ = reported_;
+  last_error_ = reported_;
 }
 
 void Recorder::run() {
@@ -56,9 +56,9 @@ void Recorder::run() {
   }
 }
 
-std::optional<std::string> Recorder::trouble() {
+std::optional<std::string> Recorder::take_error() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(trouble_, std::nullopt);
+  return std::exchange(last_error_, std::nullopt);
 }
 
 bool Recorder::stop(const RecordingEnd& end) {
@@ -72,7 +72,7 @@ bool Recorder::stop(const RecordingEnd& end) {
   if (writer_) {
     writer_->finish(end);
     is_whole_ = writer_->is_whole();
-    tell_trouble();
+    keep_error();
   }
   return is_whole_;
 }

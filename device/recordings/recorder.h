@@ -37,10 +37,10 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   // Why the recording ended early or did not get its name, once, as soon as it is known; nothing otherwise. From any thread but the one that pushes.
-  std::optional<std::string> trouble();
+  std::optional<std::string> take_error();
 
   // Takes what is still in the ring (nothing may be pushed any more), finishes the recording and ends the thread. False: the recording is
-  // not all there; trouble() says why. Calls after the first do nothing and give the same answer.
+  // not all there; take_error() says why. Calls after the first do nothing and give the same answer.
   bool stop(const RecordingEnd& end);
   // Where it is then (RecordingWriter::place); empty without a writer.
   std::string place() const { return writer_ ? writer_->place() : ""; }
@@ -48,7 +48,7 @@ class Recorder {
  private:
   void run();
   bool drain();
-  void tell_trouble();
+  void keep_error();
 
   TickRing& ring_;
   std::unique_ptr<RecordingWriter> writer_;
@@ -61,7 +61,7 @@ class Recorder {
   std::mutex mutex_;  // of the next three; the thread that pushes knows nothing of it
   std::condition_variable wake_;
   bool is_stopping_ = false;
-  std::optional<std::string> trouble_;  // until it is read
+  std::optional<std::string> last_error_;  // until it is read
 
   std::thread thread_;  // last: it uses all of the above
 };

@@ -89,10 +89,10 @@ class RecordingWriter {
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
   // Adds ticks, of ascending numbers. False: not all of them could be written (the disk is full, the file too large, an error of
-  // the disk); trouble() says why, what was written so far stays readable, and nothing is taken any more.
+  // the disk); last_error() says why, what was written so far stays readable, and nothing is taken any more.
   bool append(std::span<const Tick> ticks);
 
-  // Writes the ends, syncs, and gives the file its name; also after trouble. False: it could not, and trouble() says why and where
+  // Writes the ends, syncs, and gives the file its name; also after trouble. False: it could not, and last_error() says why and where
   // the recording is. Once.
   bool finish(RecordingEnd end);
 
@@ -100,7 +100,7 @@ class RecordingWriter {
   bool is_whole() const { return is_whole_; }
   const std::string& place() const { return place_; }
   // What went wrong, in one line for the user; empty: nothing.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& last_error() const { return last_error_; }
   // The reason for that alone, as "No space left on device".
   const std::string& reason() const { return reason_; }
   std::uint64_t records() const { return header_.records; }
@@ -112,7 +112,7 @@ class RecordingWriter {
   void append_block();
   bool is_in_place() const;
   bool is_all_there();
-  bool give_name();
+  bool publish();
   void give_up(int error);
 
   std::string path_, partial_, place_;
@@ -123,7 +123,7 @@ class RecordingWriter {
   std::string fixed_;                         // what its fixed variables hold
   std::optional<RecordChecksums> checksums_;  // of the records so far
   std::string block_;                         // records on their way into the file
-  std::string trouble_, reason_;
+  std::string last_error_, reason_;
   bool is_whole_ = true;
 };
 

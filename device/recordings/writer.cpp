@@ -92,14 +92,14 @@ std::uint64_t RecordingWriter::put(const char* data, std::uint64_t size, std::ui
 
 void RecordingWriter::give_up(int error) {
   reason_ = error == 0 ? "it holds as many ticks as a file can" : std::strerror(error);
-  trouble_ = fmt::format("{}: recording ended: {}; it is complete up to here", path_, reason_);
+  last_error_ = fmt::format("{}: recording ended: {}; it is complete up to here", path_, reason_);
   is_whole_ = false;
 }
 
 std::uint64_t RecordingWriter::bytes() const { return header_.record_begin + header_.records * header_.record_size; }
 
 bool RecordingWriter::append(std::span<const Tick> ticks) {
-  if (file_ < 0 || !trouble_.empty()) return false;
+  if (file_ < 0 || !last_error_.empty()) return false;
   const std::size_t taken = std::min<std::size_t>(ticks.size(), classic::MOST_RECORDS - header_.records);
   try {
     block_.clear();
@@ -110,8 +110,8 @@ bool RecordingWriter::append(std::span<const Tick> ticks) {
     return false;
   }
   append_block();
-  if (trouble_.empty() && taken < ticks.size()) give_up(0);
-  return trouble_.empty();
+  if (last_error_.empty() && taken < ticks.size()) give_up(0);
+  return last_error_.empty();
 }
 
 // Writes the block down, or as many whole records of it as the disk still takes.
@@ -130,7 +130,7 @@ void RecordingWriter::append_block() {
   classic::append_32(count, header_.records + added);
   if (put(count.data(), count.size(), classic::RECORD_COUNT_PLACE, error) == count.size()) {
     header_.records += added;
-  } else if (trouble_.empty()) {
+  } else if (last_error_.empty()) {
     give_up(error);
   }
 }
@@ -146,21 +146,21 @@ bool RecordingWriter::is_in_place() const {
 // Whether the partial file is where it was made, with all that was written to it: someone may have removed or cut it.
 bool RecordingWriter::is_all_there() {
   struct stat open {};
-  if (fstat(file_, &open) != 0 || !trouble_.empty()) return trouble_.empty();
+  if (fstat(file_, &open) != 0 || !last_error_.empty()) return last_error_.empty();
   if (!is_in_place()) {
     place_.clear();
     reason_ = "its file was removed or renamed";
-    trouble_ =
+    last_error_ =
         fmt::format("{}: recording ended: {} was removed or renamed during the session, with all recorded ticks", path_, partial_);
   } else if (static_cast<std::uint64_t>(open.st_size) < bytes()) {
     reason_ = "its file was cut";
-    trouble_ = fmt::format("{}: recording ended: {} was cut to {} of {} bytes during the session", path_, partial_,
-                           readable_number(static_cast<std::uint64_t>(open.st_size)), readable_number(bytes()));
+    last_error_ = fmt::format("{}: recording ended: {} was cut to {} of {} bytes during the session", path_, partial_,
+                              readable_number(static_cast<std::uint64_t>(open.st_size)), readable_number(bytes()));
     // the ticks that are left, so that nothing later makes up the others
     const std::uint64_t start = header_.record_begin, size = static_cast<std::uint64_t>(open.st_size);
     header_.records = size > start ? static_cast<std::uint32_t>((size - start) / header_.record_size) : 0;
   }
-  is_whole_ = trouble_.empty();
+  is_whole_ = last_error_.empty();
   return is_whole_;
 }
 
@@ -174,15 +174,15 @@ bool RecordingWriter::finish(RecordingEnd end) {
   int error = 0;
   // in place, over bytes that the file has: a full disk does not prevent it
   const bool is_ended = put(start.data(), start.size(), 0, error) == start.size() && fsync(file_) == 0;
-  if (!is_ended && trouble_.empty()) give_up(error != 0 ? error : errno);
+  if (!is_ended && last_error_.empty()) give_up(error != 0 ? error : errno);
   const bool is_there = is_in_place();
   close(file_);
   file_ = -1;
-  return is_there && give_name() && is_ended;
+  return is_there && publish() && is_ended;
 }
 
 // Renames the partial file; false: it stays where it is.
-bool RecordingWriter::give_name() {
+bool RecordingWriter::publish() {
   std::string refusal;
   try {
     if (rename_onto_nothing(partial_, followed(path_))) {
@@ -195,7 +195,7 @@ bool RecordingWriter::give_name() {
     refusal = refused.what();
   }
   if (reason_.empty()) reason_ = refusal;
-  trouble_ = fmt::format("{}; the {} recording is {}", refusal, is_whole_ ? "complete" : "incomplete", partial_);
+  last_error_ = fmt::format("{}; the {} recording is {}", refusal, is_whole_ ? "complete" : "incomplete", partial_);
   return false;
 }
 

@@ -60,7 +60,7 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
   }
   tick = Tick{};
   tick.number = number;
-  tell(pose, closure, tick);
+  fill_hand(pose, closure, tick);
   pouring_.land(number);
   if (is_held(state_)) {
     hold(pose, state.gap, seconds_, tick);
@@ -122,14 +122,14 @@ void Session::approach(const HandPose& pose, Tick& tick) noexcept {
     if (touches && !is_returning(state_)) {
       state_ = SessionState::touching;
       vessel_ = proxy.vessel >= 0 ? proxy.vessel : nearest.vessel;
-      tell_vessel({obstacles_.standing[vessel_].place, Mat3(1)}, tick);
+      fill_vessel({obstacles_.standing[vessel_].place, Mat3(1)}, tick);
     }
     if (proxy.vessel >= 0 && !workspace_.is_clutched()) {
       const Vec3 velocity = (tips_[k] - tips_before_[k]) / seconds_;
       forces[k] = core_f64::coupling_force(tips_[k], proxy.place, proxy.normal, velocity, live.stiffness, live.damping);
     }
-    tick.coupling[k] = to_triple(workspace_.across(forces[k]));
-    tick.proxies[k] = to_triple(workspace_.across(proxy.place));
+    tick.coupling[k] = to_triple(workspace_.mirrored(forces[k]));
+    tick.proxies[k] = to_triple(workspace_.mirrored(proxy.place));
   }
   tick.wanted.arm = workspace_.to_device(forces[0] + forces[1]);
   // what moves both tips apart by one meter of gap moves each by half of it
@@ -236,7 +236,7 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   // lift, tilt or maintain, and whether the tutorial's vessel has arrived
   state_ = turning(tick.tilt);
   note_delivery(vessel.place);
-  tell_held(vessel, load.mass, held, tick);
+  fill_held(vessel, load.mass, held, tick);
   // an open hand lets go in this very tick: nothing of the vessel is felt any more
   if (is_open(device_gap)) leave(vessel);
   if (is_returning(state_)) {
@@ -267,7 +267,7 @@ core_f64::Load Session::run_liquid(const Pose& vessel, const Leaning& leaning, d
     density = live_->scene.liquid->density;
     const double held_back = core_f64::lip_capacity(live.vessel, live_->quadrature, sine, cosine);
     const Vec3 lip = vessel.place + vessel.rotation * (live.vessel.mouth_radius * lean + Vec3(0, live.vessel.mouth_height, 0));
-    tick.flow = pouring_.pour(vessel_, held_back, workspace_.across(lip), tick.number, seconds);
+    tick.flow = pouring_.pour(vessel_, held_back, workspace_.mirrored(lip), tick.number, seconds);
     liquid = core_f64::liquid_at(live.vessel, live_->quadrature, std::min(pouring_.volume(vessel_), held_back), sine, cosine);
   }
   return core_f64::load_with(live.vessel, density * pouring_.volume(vessel_), liquid.lean, liquid.height);
@@ -275,7 +275,7 @@ core_f64::Load Session::run_liquid(const Pose& vessel, const Leaning& leaning, d
 
 // The tutorial's vessel at its destination, once.
 void Session::note_delivery(Vec3 place) noexcept {
-  const Vec3 destination = live_->scene.task ? workspace_.across(to_vec3(live_->scene.task->destination)) : Vec3(0);
+  const Vec3 destination = live_->scene.task ? workspace_.mirrored(to_vec3(live_->scene.task->destination)) : Vec3(0);
   if (vessel_ == live_->tutorial && !is_tutored_ && glm::length(place - destination) <= DESTINATION_RADIUS) {
     grasp_.is_delivered = true;
     is_tutored_ = true;
@@ -283,7 +283,7 @@ void Session::note_delivery(Vec3 place) noexcept {
   }
 }
 
-void Session::tell_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept {
+void Session::fill_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept {
   const Vec3 home = obstacles_.standing[vessel_].place;
   tick.weight = mass * live_->vessels[vessel_].force.gravity * minimum_jerk((vessel.place.y - home.y) / FULL_WEIGHT);
   tick.torque = held.torque;
@@ -299,8 +299,8 @@ void Session::tell_held(const Pose& vessel, double mass, const core_f64::HeldFor
   tick.used_mask = grasp_.used_mask;
   tick.grasp_height = grasp_.midpoint.y;
   tick.guidance_distance = grasp_.guidance_distance;
-  for (int k = 0; k < 2; ++k) tick.proxies[k] = to_triple(workspace_.across(vessel.place + vessel.rotation * grasp_.proxies[k]));
-  tell_vessel(vessel, tick);
+  for (int k = 0; k < 2; ++k) tick.proxies[k] = to_triple(workspace_.mirrored(vessel.place + vessel.rotation * grasp_.proxies[k]));
+  fill_vessel(vessel, tick);
 }
 
 bool Session::is_open(double device_gap) const noexcept {
@@ -335,8 +335,8 @@ void Session::leave(const Pose& pose) noexcept {
   Vec3& home = obstacles_.standing[vessel_].place;
   state_ = SessionState::let_go;
   if (grasp_.is_delivered &&
-      glm::length(pose.place - workspace_.across(to_vec3(live_->scene.task->destination))) <= DESTINATION_RADIUS) {
-    home = workspace_.across(to_vec3(live_->scene.task->destination));
+      glm::length(pose.place - workspace_.mirrored(to_vec3(live_->scene.task->destination))) <= DESTINATION_RADIUS) {
+    home = workspace_.mirrored(to_vec3(live_->scene.task->destination));
   } else if (glm::length(pose.place - home) > PUT_DOWN) {
     ++lost_;
     state_ = SessionState::slipped;
@@ -360,7 +360,7 @@ void Session::come_back(Tick& tick) noexcept {
     const auto upright = glm::identity<glm::dquat>();
     pose.rotation = glm::mat3_cast(glm::slerp(glm::quat_cast(left_at_.rotation), upright, way));
   }
-  tell_vessel(pose, tick);
+  fill_vessel(pose, tick);
   tick.tilt = std::acos(std::clamp(pose.rotation[1].y, -1.0, 1.0));
   if (way >= 1 && is_left(standing)) state_ = SessionState::free;
 }
@@ -378,17 +378,17 @@ int Session::tasks_done() const noexcept {
   return done;
 }
 
-void Session::tell(const HandPose& pose, double closure, Tick& tick) const noexcept {
-  tick.middle = to_triple(workspace_.across(pose.middle));
-  tick.hand_rotation = to_rotation(workspace_.across(pose.rotation));
+void Session::fill_hand(const HandPose& pose, double closure, Tick& tick) const noexcept {
+  tick.middle = to_triple(workspace_.mirrored(pose.middle));
+  tick.hand_rotation = to_rotation(workspace_.mirrored(pose.rotation));
   tick.gap = pose.gap;
   tick.closure = closure;
-  for (int k = 0; k < 2; ++k) tick.tips[k] = to_triple(workspace_.across(tips_[k]));
+  for (int k = 0; k < 2; ++k) tick.tips[k] = to_triple(workspace_.mirrored(tips_[k]));
 }
 
-void Session::tell_vessel(const Pose& pose, Tick& tick) const noexcept {
-  tick.vessel_place = to_triple(workspace_.across(pose.place));
-  tick.vessel_rotation = to_rotation(workspace_.across(pose.rotation));
+void Session::fill_vessel(const Pose& pose, Tick& tick) const noexcept {
+  tick.vessel_place = to_triple(workspace_.mirrored(pose.place));
+  tick.vessel_rotation = to_rotation(workspace_.mirrored(pose.rotation));
 }
 
 }  // namespace wholehand

@@ -68,7 +68,7 @@ class Session {
   Leaning leaning_of(const Pose& vessel) const noexcept;
   core_f64::Load run_liquid(const Pose& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept;
   void note_delivery(core_f64::Vec3 place) noexcept;
-  void tell_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
+  void fill_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
   bool is_open(double device_gap) const noexcept;
   SessionState turning(double tilt) noexcept;
   void leave(const Pose& pose) noexcept;
@@ -76,8 +76,8 @@ class Session {
   void settle_vessels() noexcept;
   bool is_left(const Obstacles::Standing& standing) const noexcept;
   int tasks_done() const noexcept;
-  void tell(const HandPose& pose, double closure, Tick& tick) const noexcept;
-  void tell_vessel(const Pose& pose, Tick& tick) const noexcept;
+  void fill_hand(const HandPose& pose, double closure, Tick& tick) const noexcept;
+  void fill_vessel(const Pose& pose, Tick& tick) const noexcept;
 
   std::unique_ptr<const LiveScene> live_;  // where it is: obstacles point into it
   Workspace workspace_;

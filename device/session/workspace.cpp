@@ -33,8 +33,8 @@ Workspace::Workspace(const Scene& scene, std::array<double, 2> device_gap, std::
 HandPose Workspace::map(const GripperState& state) noexcept {
   const Mat3 turned = axes_ * to_mat3(state.rotation);
   HandPose pose;
-  pose.rotation = across(turned);
-  const Vec3 place = across(origin_ + scale_ * (axes_ * to_vec3(state.position)));
+  pose.rotation = mirrored(turned);
+  const Vec3 place = mirrored(origin_ + scale_ * (axes_ * to_vec3(state.position)));
   const bool pressed = clutch_ >= 0 && (state.buttons >> clutch_ & 1u) != 0;
   if (pressed && !is_clutched_) held_ = place + offset_;
   if (pressed) offset_ = held_ - place;
@@ -48,19 +48,19 @@ HandPose Workspace::map(const GripperState& state) noexcept {
 GripperState Workspace::unmap(const HandPose& pose) const noexcept {
   const Mat3 back = glm::transpose(axes_);
   GripperState state;
-  state.position = to_triple((1 / scale_) * (back * (across(pose.middle) - origin_)));
-  state.rotation = to_rotation(back * across(pose.rotation));
+  state.position = to_triple((1 / scale_) * (back * (mirrored(pose.middle) - origin_)));
+  state.rotation = to_rotation(back * mirrored(pose.rotation));
   state.gap = device_gap_[0] + (std::clamp(pose.gap, hand_gap_[0], hand_gap_[1]) - hand_gap_[0]) / slope_;
   return state;
 }
 
-Triple Workspace::to_device(Vec3 force) const noexcept { return to_triple(glm::transpose(axes_) * across(force)); }
+Triple Workspace::to_device(Vec3 force) const noexcept { return to_triple(glm::transpose(axes_) * mirrored(force)); }
 
-Vec3 Workspace::to_world(const Triple& force) const noexcept { return across(axes_ * to_vec3(force)); }
+Vec3 Workspace::to_world(const Triple& force) const noexcept { return mirrored(axes_ * to_vec3(force)); }
 
-Vec3 Workspace::across(Vec3 v) const noexcept { return mirrored(v, handedness_); }
+Vec3 Workspace::mirrored(Vec3 v) const noexcept { return wholehand::mirrored(v, handedness_); }
 
-Mat3 Workspace::across(const Mat3& rotation) const noexcept { return mirrored(rotation, handedness_); }
+Mat3 Workspace::mirrored(const Mat3& rotation) const noexcept { return wholehand::mirrored(rotation, handedness_); }
 
 double coupling_slope(double workspace_scale, double gap_slope) { return std::max(2 * workspace_scale, gap_slope); }
 

@@ -31,8 +31,8 @@ class Workspace {
   Triple to_device(core_f64::Vec3 force) const noexcept;
   core_f64::Vec3 to_world(const Triple& force) const noexcept;
   // Between that world and the scene's own: mirrored in x for a left hand. The same both ways.
-  core_f64::Vec3 across(core_f64::Vec3 v) const noexcept;
-  core_f64::Mat3 across(const core_f64::Mat3& rotation) const noexcept;
+  core_f64::Vec3 mirrored(core_f64::Vec3 v) const noexcept;
+  core_f64::Mat3 mirrored(const core_f64::Mat3& rotation) const noexcept;
 
   std::array<double, 2> device_gap() const noexcept { return device_gap_; }
   double gap_slope() const noexcept { return slope_; }  // of the hand's gap by the device's

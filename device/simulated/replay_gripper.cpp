@@ -28,21 +28,21 @@ class ReplayGripper : public Gripper {
     if (next_ >= end_ || ticks_[next_].number != tick) return ReadOutcome::timeout;
     const Tick& then = ticks_[next_++];
     takes_force_ = then.fault != Fault::write_error;
-    dictates_zero_ = is_none(then.written) && !is_none(then.wanted);
+    replays_zero_ = is_none(then.written) && !is_none(then.wanted);
     if (then.read == ReadOutcome::value) state = then.device;
     return then.read;
   }
   bool write(const GripperForce&) noexcept override { return takes_force_; }
-  const char* trouble() const noexcept override { return "as in the recording"; }
+  const char* last_error() const noexcept override { return "as in the recording"; }
   bool is_done() const noexcept override { return next_ >= end_; }
-  bool dictates_zero() const noexcept override { return dictates_zero_; }
-  std::int64_t dictated_tick() const noexcept override { return next_ < end_ ? ticks_[next_].number : -1; }
+  bool replays_zero() const noexcept override { return replays_zero_; }
+  std::int64_t replayed_tick() const noexcept override { return next_ < end_ ? ticks_[next_].number : -1; }
 
  private:
   std::vector<Tick> ticks_;
   GripperLimits limits_;
   std::size_t next_ = 0, end_ = 0;  // of the ticks that are played
-  bool takes_force_ = true, dictates_zero_ = false;
+  bool takes_force_ = true, replays_zero_ = false;
 };
 
 }  // namespace

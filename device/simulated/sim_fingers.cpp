@@ -18,13 +18,13 @@ SimFingers::SimFingers(double opening_stiffness, double range, double most, doub
     : compliance_(1 / std::max(opening_stiffness, SOFTEST)), range_(range), most_(most), period_(period) {}
 
 void SimFingers::take(const Traits& traits) noexcept {
-  stiffness_ = of(traits, Trait::finger_stiffness);
-  damping_ = of(traits, Trait::finger_damping);
-  response_ = of(traits, Trait::response);
-  correction_ = std::max(CORRECTION_TIME, REACTIONS * of(traits, Trait::reaction));
-  tremor_ = of(traits, Trait::grip_tremor);
-  error_ = of(traits, Trait::grip_error);
-  by_ = core_f64::propagator({of(traits, Trait::finger_mass) + JAW_MASS, damping_ + JAW_DAMPING, stiffness_}, period_);
+  stiffness_ = traits[Trait::finger_stiffness];
+  damping_ = traits[Trait::finger_damping];
+  response_ = traits[Trait::response];
+  correction_ = std::max(CORRECTION_TIME, REACTIONS * traits[Trait::reaction]);
+  tremor_ = traits[Trait::grip_tremor];
+  error_ = traits[Trait::grip_error];
+  by_ = core_f64::propagator({traits[Trait::finger_mass] + JAW_MASS, damping_ + JAW_DAMPING, stiffness_}, period_);
 }
 
 void SimFingers::go(double place, double speed) noexcept {

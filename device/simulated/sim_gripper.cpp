@@ -105,8 +105,8 @@ class SimGripper final : public Gripper {
     limits_.rate = scene.live.rate;
     limits_.is_left_handed = scene.hand.handedness == Handedness::left;
     if (shown_grips_) user_.follow_shown();
-    wish_ = user_.next({}, period_);
-    for (int k = 0; k < 3; ++k) place_[k].place = wish_.middle[k];
+    command_ = user_.next({}, period_);
+    for (int k = 0; k < 3; ++k) place_[k].place = command_.middle[k];
     take();
   }
 
@@ -118,7 +118,7 @@ class SimGripper final : public Gripper {
     last_ = tick;
     HandPose pose;
     for (int k = 0; k < 3; ++k) pose.middle[k] = place_[k].place + trembling_[k];
-    pose.rotation = wish_.rotation();
+    pose.rotation = command_.rotation();
     pose.gap = hand_gap();
     state = workspace_.unmap(pose);
     state.sequence = static_cast<std::uint32_t>(tick) + 1;
@@ -153,33 +153,33 @@ class SimGripper final : public Gripper {
   void take() noexcept {
     const Traits& traits = user_.traits();
     grasp_ = user_.grasp();
-    arm_damping_ = of(traits, Trait::arm_damping);
-    arm_stiffness_ = of(traits, Trait::arm_stiffness);
-    arm_by_ = core_f64::propagator({of(traits, Trait::arm_mass), arm_damping_, arm_stiffness_}, period_);
+    arm_damping_ = traits[Trait::arm_damping];
+    arm_stiffness_ = traits[Trait::arm_stiffness];
+    arm_by_ = core_f64::propagator({traits[Trait::arm_mass], arm_damping_, arm_stiffness_}, period_);
     fingers_.take(traits);
-    for (Tremor& tremor : tremor_) tremor.set(of(traits, Trait::tremor_rate), period_);
+    for (Tremor& tremor : tremor_) tremor.set(traits[Trait::tremor_rate], period_);
   }
 
   void advance() noexcept {
     shown_before_.put(shown_);
-    SimSense sense = shown_before_.before(of(user_.traits(), Trait::reaction));
+    SimSense sense = shown_before_.before(user_.traits()[Trait::reaction]);
     sense.gap = hand_gap();
-    wish_ = user_.next(sense, period_);
+    command_ = user_.next(sense, period_);
     if (user_.grasp() != grasp_) take();
     // the arm takes over what it feels in the time of a response
-    const double share = -std::expm1(-period_ / of(user_.traits(), Trait::response));
+    const double share = -std::expm1(-period_ / user_.traits()[Trait::response]);
     const Vec3 pushed = workspace_.to_world(force_.arm);
     for (int k = 0; k < 3; ++k) {
       carried_[k] += (pushed[k] - carried_[k]) * share;
-      trembling_[k] = of(user_.traits(), Trait::arm_tremor) * tremor_[k].next(random_);
-      const double drive = arm_stiffness_ * wish_.middle[k] + arm_damping_ * wish_.velocity[k] + pushed[k] - carried_[k];
+      trembling_[k] = user_.traits()[Trait::arm_tremor] * tremor_[k].next(random_);
+      const double drive = arm_stiffness_ * command_.middle[k] + arm_damping_ * command_.velocity[k] + pushed[k] - carried_[k];
       place_[k] = core_f64::advance(arm_by_, place_[k], drive);
     }
-    if (wish_.grips_by_force) {
-      fingers_.press(wish_.force, sense.felt, sense.load);
+    if (command_.grips_by_force) {
+      fingers_.press(command_.force, sense.felt, sense.load);
     } else {
       const double slope = workspace_.gap_slope();
-      fingers_.go((hand_gap_[1] - wish_.gap) / slope, -wish_.gap_speed / slope);
+      fingers_.go((hand_gap_[1] - command_.gap) / slope, -command_.gap_speed / slope);
     }
     fingers_.advance(force_.grip, tremor_[3].next(random_), wandering_.next(period_, random_));
   }
@@ -196,7 +196,7 @@ class SimGripper final : public Gripper {
   std::mt19937_64 random_;
   GripperLimits limits_;
   SimSense shown_;
-  SimWish wish_;
+  SimCommand command_;
   int grasp_ = -1;
   double arm_damping_ = 0, arm_stiffness_ = 0;
   core_f64::Propagator arm_by_;

@@ -114,7 +114,7 @@ std::vector<SimJob> plan_sim_jobs(const Scene& scene) {
   return possible;
 }
 
-core_f64::Mat3 SimWish::rotation() const noexcept {
+core_f64::Mat3 SimCommand::rotation() const noexcept {
   const auto about = [](int axis, double angle) {
     Vec3 unit(0);
     unit[axis] = 1;
@@ -128,12 +128,12 @@ SimUser::SimUser(const LiveScene& live, std::vector<SimJob> jobs, const Particip
   next_grasp();
   const double open = live.hand.scale * live.hand.gap_open;
   home_ = live.vessels[jobs_.front().vessel].home + Vec3(0, 0.2, 0.3);
-  wish_.middle = home_;
-  wish_.gap = open;
+  command_.middle = home_;
+  command_.gap = open;
   begin(Phase::reach);
-  wish_.roll = roll_from_ = roll_to_;
-  wish_.azimuth = azimuth_from_ = azimuth_to_;
-  wish_.obliquity = obliquity_from_ = obliquity_to_;
+  command_.roll = roll_from_ = roll_to_;
+  command_.azimuth = azimuth_from_ = azimuth_to_;
+  command_.obliquity = obliquity_from_ = obliquity_to_;
 }
 
 // A new try, at a vessel that the person has a guess of.
@@ -147,15 +147,15 @@ void SimUser::next_grasp() noexcept {
 
 // The grip follows what opens the fingers, and a weight that is more than was expected. It takes the response time to do so.
 void SimUser::follow_load(const SimSense& sense, double seconds) noexcept {
-  const double surplus = std::max(0.0, sense.weight - of(traits_, Trait::weight_guess) * weight_);
-  const double rise = sense.load + surplus / (2 * of(traits_, Trait::friction));
+  const double surplus = std::max(0.0, sense.weight - traits_[Trait::weight_guess] * weight_);
+  const double rise = sense.load + surplus / (2 * traits_[Trait::friction]);
   // nine tenths and a half of a step within the response
-  load_ += (rise - load_) * -std::expm1(-3 * seconds / of(traits_, Trait::response));
-  wish_.force = std::clamp(loaded_force(traits_, first_force(traits_, weight_), load_), 0.0, largest_force(traits_));
+  load_ += (rise - load_) * -std::expm1(-3 * seconds / traits_[Trait::response]);
+  command_.force = std::clamp(loaded_force(traits_, first_force(traits_, weight_), load_), 0.0, largest_force(traits_));
 }
 
 // Takes the grip shown for the job's vessel from now on, also in further tries. The person aims at it as well or as badly as at any other.
-void SimUser::take_shown() noexcept {
+void SimUser::take_shown_grip() noexcept {
   if (shown_.vessel != job().vessel) return;
   SimJob& own = jobs_[static_cast<std::size_t>(job_)];
   own.grip = shown_.grip;
@@ -165,7 +165,7 @@ void SimUser::take_shown() noexcept {
 
 // Middle of the tips while the vessel pours. A grasp that is higher on the vessel leaves the vessel where it is.
 Vec3 SimUser::on_path(double tilt) const noexcept {
-  const double up = of(traits_, Trait::height);
+  const double up = traits_[Trait::height];
   return job().path.middle(tilt) + up * Vec3(0, std::cos(tilt), -std::sin(tilt));
 }
 
@@ -178,7 +178,7 @@ double SimUser::lift() const noexcept {
 Vec3 SimUser::in_hand_world(const Triple& place) const noexcept { return to_vec3(mirrored(place, live_.scene.hand.handedness)); }
 
 void SimUser::move(Vec3 to, double seconds) noexcept {
-  from_ = wish_.middle;
+  from_ = command_.middle;
   to_ = to;
   lasts_ = seconds;
 }
@@ -186,17 +186,17 @@ void SimUser::move(Vec3 to, double seconds) noexcept {
 void SimUser::begin(Phase phase) noexcept {
   phase_ = phase;
   time_ = 0;
-  from_ = to_ = wish_.middle;
-  gap_from_ = gap_to_ = wish_.gap;
-  tilt_from_ = tilt_to_ = wish_.tilt;
-  roll_from_ = wish_.roll;
-  roll_to_ = job().grip.roll + of(traits_, Trait::roll);
-  azimuth_from_ = wish_.azimuth;
-  obliquity_from_ = wish_.obliquity;
+  from_ = to_ = command_.middle;
+  gap_from_ = gap_to_ = command_.gap;
+  tilt_from_ = tilt_to_ = command_.tilt;
+  roll_from_ = command_.roll;
+  roll_to_ = job().grip.roll + traits_[Trait::roll];
+  azimuth_from_ = command_.azimuth;
+  obliquity_from_ = command_.obliquity;
   // a user who pours turns the vessel towards the target on the way there
   const bool is_poured = job().kind == SimJob::Kind::pour && phase >= Phase::carry && phase <= Phase::open;
-  azimuth_to_ = is_poured ? 0 : of(traits_, Trait::azimuth);
-  obliquity_to_ = job().grip.obliquity + of(traits_, Trait::obliquity);
+  azimuth_to_ = is_poured ? 0 : traits_[Trait::azimuth];
+  obliquity_to_ = job().grip.obliquity + traits_[Trait::obliquity];
   has_run_ = false;
   plan_motion();
 }
@@ -205,14 +205,14 @@ void SimUser::begin(Phase phase) noexcept {
 Vec3 SimUser::set_down_at() const noexcept {
   const Vec3 destination = live_.scene.task ? in_hand_world(live_.scene.task->destination) : Vec3(0);
   const Vec3 place = job().kind == SimJob::Kind::carry ? destination : live_.vessels[job().vessel].home;
-  return place + Vec3(0, job().grip.height + of(traits_, Trait::height), 0);
+  return place + Vec3(0, job().grip.height + traits_[Trait::height], 0);
 }
 
 // Where the phase ends, and how long it lasts.
 void SimUser::plan_motion() noexcept {
   const double open = live_.hand.scale * live_.hand.gap_open;
-  const Vec3 taken = live_.vessels[job().vessel].home + Vec3(0, job().grip.height + of(traits_, Trait::height), 0);
-  const double azimuth = of(traits_, Trait::azimuth);
+  const Vec3 taken = live_.vessels[job().vessel].home + Vec3(0, job().grip.height + traits_[Trait::height], 0);
+  const double azimuth = traits_[Trait::azimuth];
   const bool is_carried = job().kind == SimJob::Kind::carry;
   const Vec3 put = set_down_at();
   switch (phase_) {
@@ -235,7 +235,7 @@ void SimUser::plan_motion() noexcept {
       lasts_ = SETTLE_TIME;
       break;
     case Phase::lift:
-      move(wish_.middle + Vec3(0, lift(), 0), LIFT_TIME * lift() / LIFT);
+      move(command_.middle + Vec3(0, lift(), 0), LIFT_TIME * lift() / LIFT);
       break;
     case Phase::carry:
       if (job().kind == SimJob::Kind::pour)
@@ -255,7 +255,7 @@ void SimUser::plan_motion() noexcept {
       lasts_ = job().kind == SimJob::Kind::show ? MAINTAIN_TIME : 0;
       break;
     case Phase::upright:
-      lasts_ = wish_.tilt > 0 ? UPRIGHT_TIME : 0;
+      lasts_ = command_.tilt > 0 ? UPRIGHT_TIME : 0;
       tilt_to_ = 0;
       break;
     case Phase::back:
@@ -269,7 +269,7 @@ void SimUser::plan_motion() noexcept {
       lasts_ = OPEN_TIME;
       break;
     case Phase::withdraw:
-      move(wish_.middle + Vec3(0, CLEAR, APART), WITHDRAW_TIME);
+      move(command_.middle + Vec3(0, CLEAR, APART), WITHDRAW_TIME);
       break;
   }
 }
@@ -280,45 +280,45 @@ void SimUser::pour(const SimSense& sense, double seconds) noexcept {
   const double flow = std::clamp(missing / POUR_AHEAD, 0.0, QUICKEST_FLOW);
   has_run_ = has_run_ || sense.flow > 0;
   const double speed = has_run_ ? TILT_SPEED * std::clamp((flow - sense.flow) / FLOW_BAND, -1.0, 1.0) : TILT_SPEED;
-  wish_.tilt = std::clamp(wish_.tilt + speed * seconds, 0.0, SIM_LARGEST_TILT);
-  wish_.middle = on_path(wish_.tilt);
-  idle_ = sense.flow > 0 || wish_.tilt < SIM_LARGEST_TILT ? 0 : idle_ + seconds;
-  if (missing <= 0.3 * live_.scene.task->tolerance || idle_ > of(traits_, Trait::patience)) time_ = lasts_;
+  command_.tilt = std::clamp(command_.tilt + speed * seconds, 0.0, SIM_LARGEST_TILT);
+  command_.middle = on_path(command_.tilt);
+  idle_ = sense.flow > 0 || command_.tilt < SIM_LARGEST_TILT ? 0 : idle_ + seconds;
+  if (missing <= 0.3 * live_.scene.task->tolerance || idle_ > traits_[Trait::patience]) time_ = lasts_;
 }
 
-SimWish SimUser::next(const SimSense& sense, double seconds) noexcept {
-  if (is_done()) return wish_;
+SimCommand SimUser::next(const SimSense& sense, double seconds) noexcept {
+  if (is_done()) return command_;
   time_ += seconds;
   const bool should_hold = phase_ >= Phase::settle && phase_ < Phase::open;
   if (should_hold && time_ > LOOKS && is_returning(sense.state)) fail();
   const double part = lasts_ > 0 ? time_ / lasts_ : 1;
-  const Vec3 before = wish_.middle;
-  const double gap_before = wish_.gap;
+  const Vec3 before = command_.middle;
+  const double gap_before = command_.gap;
   const bool pours = job().kind == SimJob::Kind::pour;
   if (phase_ == Phase::tilt && pours) {
     pour(sense, seconds);
   } else {
-    wish_.middle = from_ + minimum_jerk(part) * (to_ - from_);
-    wish_.tilt = tilt_from_ + minimum_jerk(part) * (tilt_to_ - tilt_from_);
-    if (phase_ == Phase::upright && pours) wish_.middle = on_path(wish_.tilt);
+    command_.middle = from_ + minimum_jerk(part) * (to_ - from_);
+    command_.tilt = tilt_from_ + minimum_jerk(part) * (tilt_to_ - tilt_from_);
+    if (phase_ == Phase::upright && pours) command_.middle = on_path(command_.tilt);
   }
-  wish_.roll = roll_from_ + minimum_jerk(part) * (roll_to_ - roll_from_);
-  wish_.azimuth = azimuth_from_ + minimum_jerk(part) * (azimuth_to_ - azimuth_from_);
-  wish_.obliquity = obliquity_from_ + minimum_jerk(part) * (obliquity_to_ - obliquity_from_);
-  wish_.gap = wish_.grips_by_force ? sense.gap : gap_from_ + minimum_jerk(part) * (gap_to_ - gap_from_);
-  wish_.velocity = (wish_.middle - before) / seconds;
-  wish_.gap_speed = (wish_.gap - gap_before) / seconds;
+  command_.roll = roll_from_ + minimum_jerk(part) * (roll_to_ - roll_from_);
+  command_.azimuth = azimuth_from_ + minimum_jerk(part) * (azimuth_to_ - azimuth_from_);
+  command_.obliquity = obliquity_from_ + minimum_jerk(part) * (obliquity_to_ - obliquity_from_);
+  command_.gap = command_.grips_by_force ? sense.gap : gap_from_ + minimum_jerk(part) * (gap_to_ - gap_from_);
+  command_.velocity = (command_.middle - before) / seconds;
+  command_.gap_speed = (command_.gap - gap_before) / seconds;
   const bool feels = phase_ == Phase::close && is_held(sense.state) && sense.felt > FELT;
-  if (feels) wish_.grips_by_force = true;
+  if (feels) command_.grips_by_force = true;
   follow_load(sense, seconds);
   if (feels || time_ >= lasts_) go_on(feels);
-  return wish_;
+  return command_;
 }
 
 // What was meant did not succeed: let go, leave, and begin again.
 void SimUser::fail() noexcept {
   has_failed_ = true;
-  wish_.grips_by_force = false;
+  command_.grips_by_force = false;
   begin(Phase::open);
   tilt_to_ = 0;
 }
@@ -328,8 +328,8 @@ void SimUser::go_on(bool feels) noexcept {
     if (time_ > 2 * CLOSE_TIME) fail();
     return;
   }
-  if (phase_ == Phase::lower) wish_.grips_by_force = false;
-  if (phase_ == Phase::look) take_shown();
+  if (phase_ == Phase::lower) command_.grips_by_force = false;
+  if (phase_ == Phase::look) take_shown_grip();
   if (phase_ == Phase::reach && !follows_) {
     begin(Phase::enter);
     return;

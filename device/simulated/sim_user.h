@@ -41,8 +41,8 @@ std::optional<ChosenGrip> best_roll(const Evaluator& evaluator, std::size_t vess
 // left out; throws Error (usage) where none is left.
 std::vector<SimJob> plan_sim_jobs(const Scene& scene);
 
-// What the user wants at a moment.
-struct SimWish {
+// Where the user steers the hand at a moment, and how it grips.
+struct SimCommand {
   core_f64::Vec3 middle{};        // of the tips, m
   core_f64::Vec3 velocity{};      // of that, m/s
   double azimuth = 0;             // of the line of the tips about up, off x, rad
@@ -79,8 +79,8 @@ class SimUser {
   void follow_shown() noexcept { follows_ = true; }
   // What is on the screen now.
   void see(const ShownGrip& shown) noexcept { shown_ = shown; }
-  // The wish after another `seconds`, which may not be long beside a reaction. Neither allocates nor throws.
-  SimWish next(const SimSense& sense, double seconds) noexcept;
+  // The command after another `seconds`, which may not be long beside a reaction. Neither allocates nor throws.
+  SimCommand next(const SimSense& sense, double seconds) noexcept;
   bool is_done() const noexcept { return job_ >= static_cast<int>(jobs_.size()); }
   int vessel() const noexcept { return is_done() ? -1 : jobs_[job_].vessel; }
   int abandoned() const noexcept { return abandoned_; }  // jobs given up after ATTEMPTS lost grips
@@ -95,7 +95,7 @@ class SimUser {
   void fail() noexcept;
   void go_on(bool feels) noexcept;
   void next_grasp() noexcept;
-  void take_shown() noexcept;
+  void take_shown_grip() noexcept;
   void follow_load(const SimSense& sense, double seconds) noexcept;
   core_f64::Vec3 on_path(double tilt) const noexcept;
   void move(core_f64::Vec3 to, double seconds) noexcept;
@@ -123,7 +123,7 @@ class SimUser {
   core_f64::Vec3 from_{}, to_{}, home_{};
   double gap_from_ = 0, gap_to_ = 0, tilt_from_ = 0, tilt_to_ = 0, roll_from_ = 0, roll_to_ = 0;
   double azimuth_from_ = 0, azimuth_to_ = 0, obliquity_from_ = 0, obliquity_to_ = 0;
-  SimWish wish_;
+  SimCommand command_;
 };
 
 }  // namespace wholehand

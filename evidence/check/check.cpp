@@ -92,7 +92,7 @@ class Checking {
     if (on_double_) exact_.add_liquid(v, on_double_->liquid(v), liquid);
   }
 
-  void tell(CheckReport& report, const std::vector<CheckSample>& samples) const {
+  void record_worst(CheckReport& report, const std::vector<CheckSample>& samples) const {
     const BackendInfo& info = on_float_->info();
     report.device = info.device;
     report.driver = info.driver;
@@ -155,7 +155,7 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
     }
     for (const Precision precision : host::contracted_precisions(host::Device(options.on, options.device)))
       report.contracted.push_back(precision == Precision::single ? "float" : "double");
-    checking.tell(report, samples);
+    checking.record_worst(report, samples);
   } catch (const Error& error) {
     throw check_error(error);
   }

@@ -163,7 +163,7 @@ double tip_radius(const HandData& hand) { return hand.scale * std::max(hand.fing
 
 }  // namespace
 
-bool is_told(const Scene& scene, const Field& field) {
+bool is_compared_by_number(const Scene& scene, const Field& field) {
   const bool is_hold = field.number == FIELD_HOLD_FORCE || field.number == FIELD_LARGEST_HOLD;
   return field.label && !(is_hold && has_effort(scene));
 }
@@ -173,7 +173,7 @@ FieldSet compared_fields(const Scene& scene) {
   compared.insert(compared.end(), DISCRETE.begin(), DISCRETE.end());
   const FieldSet all = all_fields(scene);
   for (const Field& field : real_fields())
-    if (is_told(scene, field)) compared.push_back(field.number);
+    if (is_compared_by_number(scene, field)) compared.push_back(field.number);
   std::erase_if(compared, [&](int field) { return !all.has(field); });
   return make_field_set(compared, scene);
 }
@@ -210,7 +210,7 @@ Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed,
       others_.push_back(make_core_evaluator(with_strengths(scene, factor)));
   const FieldSet fields = compared_fields(scene);
   for (const Field& field : real_fields())
-    if (is_told(scene, field) && fields.has(field.number)) row(field.kernel, field.label, fine_unit(field).name);
+    if (is_compared_by_number(scene, field) && fields.has(field.number)) row(field.kernel, field.label, fine_unit(field).name);
   if (has_tilts(scene, fields)) {
     row("force", PEAK_TILT, "mN");
     row("force", SAFE_TILT, "mN");
@@ -277,11 +277,12 @@ bool Comparer::needs_spread(std::size_t vessel, const GatheredPlanes& a, const G
                             const Tolerance& floor, std::size_t i) const {
   const FieldSet& fields = a.fields;
   if (differs(a, b, i, allowed_.same_stop) || grazes(a, i) || grazes(b, i)) return true;
-  if (has_tilts(scene_, fields) && (tells_apart(FIELD_PEAK_TILT, a, b, i) || tells_apart(FIELD_SAFE_TILT, a, b, i))) return true;
+  if (has_tilts(scene_, fields) && (places_differ(FIELD_PEAK_TILT, a, b, i) || places_differ(FIELD_SAFE_TILT, a, b, i)))
+    return true;
   if (has_worst_state(fields) && asks_worst_state(vessel, a, b, truth, i)) return true;
-  const auto& told = real_fields();
-  return std::any_of(told.begin(), told.end(), [&](const Field& field) {
-    if (!is_told(scene_, field) || !is_held(a, field.number) || !is_held(b, field.number)) return false;
+  const auto& known = real_fields();
+  return std::any_of(known.begin(), known.end(), [&](const Field& field) {
+    if (!is_compared_by_number(scene_, field) || !is_held(a, field.number) || !is_held(b, field.number)) return false;
     const int planes = field_planes(field.number, scene_fills(scene_), scene_.tilts.size());
     for (int p = 0; p < planes; ++p) {
       const int plane = fields.plane[field.number] + p;
@@ -292,12 +293,12 @@ bool Comparer::needs_spread(std::size_t vessel, const GatheredPlanes& a, const G
 }
 
 // Whether the sides report different tilts of the field, at any fill.
-bool Comparer::tells_apart(int field, const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) const {
+bool Comparer::places_differ(int field, const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) const {
   for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
-    const auto told = [&](const GatheredPlanes& side) {
-      return place_told(side.real(side.fields.plane[field] + fill, i), scene_.tilts, PI);
+    const auto reported = [&](const GatheredPlanes& side) {
+      return listed_place(side.real(side.fields.plane[field] + fill, i), scene_.tilts, PI);
     };
-    if (told(a) != told(b)) return true;
+    if (reported(a) != reported(b)) return true;
   }
   return false;
 }
@@ -305,9 +306,9 @@ bool Comparer::tells_apart(int field, const GatheredPlanes& a, const GatheredPla
 // The state that a side names as the worst, by fills and tilts; nothing where it names none of the scene's.
 std::optional<std::size_t> Comparer::worst_state(std::size_t vessel, const GatheredPlanes& side, std::size_t i) const {
   const std::vector<double> fills = scene_.liquid ? vessel_fills(scene_, scene_.vessels[vessel]) : std::vector<double>{0};
-  const auto told = [&](int field) { return side.real(side.fields.plane[field], i); };
-  const std::size_t fill = place_told(told(FIELD_WORST_EFFORT_FILL), fills, 1).value_or(0);
-  const std::size_t tilt = place_told(told(FIELD_WORST_EFFORT_TILT), scene_.tilts, PI).value_or(0);
+  const auto reported = [&](int field) { return side.real(side.fields.plane[field], i); };
+  const std::size_t fill = listed_place(reported(FIELD_WORST_EFFORT_FILL), fills, 1).value_or(0);
+  const std::size_t tilt = listed_place(reported(FIELD_WORST_EFFORT_TILT), scene_.tilts, PI).value_or(0);
   if (fill == 0 || tilt == 0) return std::nullopt;
   return (fill - 1) * scene_.tilts.size() + tilt - 1;
 }
@@ -425,7 +426,7 @@ double Comparer::largest_of(const GatheredPlanes& truth, int field) const {
 void Comparer::add_numbers(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
                            const Tolerance& tolerance) {
   for (const Field& field : real_fields()) {
-    if (!is_told(scene_, field) || !is_held(a, field.number) || !is_held(b, field.number)) continue;
+    if (!is_compared_by_number(scene_, field) || !is_held(a, field.number) || !is_held(b, field.number)) continue;
     const FineUnit unit = fine_unit(field);
     Comparison& entry = row(field.kernel, field.label, unit.name);
     const int planes = field_planes(field.number, scene_fills(scene_), scene_.tilts.size());
@@ -495,7 +496,7 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
   const bool by_effort = has_effort(scene_);
   std::vector<std::size_t> asked;  // where the sides report different safe tilts
   for (std::size_t i = 0; by_effort && i < a.count; ++i)
-    if (left_out[i] == 0 && tells_apart(FIELD_SAFE_TILT, a, b, i)) asked.push_back(i);
+    if (left_out[i] == 0 && places_differ(FIELD_SAFE_TILT, a, b, i)) asked.push_back(i);
   const StateEfforts efforts(scene_, core_, vessel, grips, asked);
   Comparison& peak = row("force", PEAK_TILT, "mN");
   Comparison& safe = row("force", SAFE_TILT, "mN");
@@ -507,28 +508,29 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
     double peak_over = 0, safe_over = 0;
     for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
       const std::size_t first = fill * tilts;
-      const auto told = [&](const GatheredPlanes& side, int field) {
-        return place_told(side.real(fields.plane[field] + fill, i), scene_.tilts, PI);
+      const auto reported = [&](const GatheredPlanes& side, int field) {
+        return listed_place(side.real(fields.plane[field] + fill, i), scene_.tilts, PI);
       };
-      const std::optional<std::size_t> told_a = told(a, FIELD_PEAK_TILT), told_b = told(b, FIELD_PEAK_TILT);
+      const std::optional<std::size_t> reported_a = reported(a, FIELD_PEAK_TILT), reported_b = reported(b, FIELD_PEAK_TILT);
       constexpr double WRONG = std::numeric_limits<double>::infinity();
-      if (told_a.value_or(0) == 0 || told_b.value_or(0) == 0) {
+      if (reported_a.value_or(0) == 0 || reported_b.value_or(0) == 0) {
         peak_over = std::max(peak_over, note_difference(peak, 1e3, vessel, i, WRONG, 0));
         continue;
       }
-      const std::size_t peak_a = first + *told_a - 1, peak_b = first + *told_b - 1;
+      const std::size_t peak_a = first + *reported_a - 1, peak_b = first + *reported_b - 1;
       const auto feedback = [&](std::size_t state) {
         return b.real(fields.plane[FIELD_FEEDBACK_FORCE] + static_cast<int>(state), i);
       };
       const double of_peak = tolerance(FIELD_FEEDBACK_FORCE, peak_a, i) + tolerance(FIELD_FEEDBACK_FORCE, peak_b, i);
       peak_over =
           std::max(peak_over, note_difference(peak, 1e3, vessel, i, std::max(0.0, feedback(peak_b) - feedback(peak_a)), of_peak));
-      const std::optional<std::size_t> safe_told_a = told(a, FIELD_SAFE_TILT), safe_told_b = told(b, FIELD_SAFE_TILT);
-      if (!safe_told_a || !safe_told_b) {
+      const std::optional<std::size_t> reported_safe_a = reported(a, FIELD_SAFE_TILT),
+                                       reported_safe_b = reported(b, FIELD_SAFE_TILT);
+      if (!reported_safe_a || !reported_safe_b) {
         safe_over = std::max(safe_over, note_difference(safe, 1e3, vessel, i, WRONG, 0));
         continue;
       }
-      const std::size_t safe_a = *safe_told_a, safe_b = *safe_told_b;
+      const std::size_t safe_a = *reported_safe_a, safe_b = *reported_safe_b;
       if (safe_a == safe_b) continue;
       // the first state that one side calls unsafe and the other does not
       const GatheredPlanes& stricter = safe_a < safe_b ? a : b;
@@ -609,10 +611,10 @@ double Comparer::shift(std::size_t vessel) const {
 
 // The place of a reported value among the listed ones, from 1; 0 for NaN, and nothing where it is none of them. Listed values are at most
 // rounded to the coarser precision. No value is larger than `largest`.
-std::optional<std::size_t> Comparer::place_told(double told, const std::vector<double>& listed, double largest) const {
-  if (std::isnan(told)) return 0;
-  const std::size_t nearest = nearest_place(listed, told);
-  if (!(std::abs(listed[nearest] - told) <= 4 * allowed_.epsilon * largest)) return std::nullopt;
+std::optional<std::size_t> Comparer::listed_place(double reported, const std::vector<double>& listed, double largest) const {
+  if (std::isnan(reported)) return 0;
+  const std::size_t nearest = nearest_place(listed, reported);
+  if (!(std::abs(listed[nearest] - reported) <= 4 * allowed_.epsilon * largest)) return std::nullopt;
   return nearest + 1;
 }
 

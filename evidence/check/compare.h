@@ -46,7 +46,7 @@ std::uint64_t allowed_flips(std::uint64_t grips);
 
 // Whether a field is compared number by number. In a scene with strengths a hold force is an effort of a state, which the core computes
 // whichever backend runs.
-bool is_told(const Scene& scene, const Field& field);
+bool is_compared_by_number(const Scene& scene, const Field& field);
 
 // Every field that the scene has and that a comparison needs: all but efforts and hold forces of single states, which only the core
 // computes.
@@ -114,7 +114,7 @@ class Comparer {
   using Tolerance = std::function<double(int field, std::size_t state, std::size_t grip)>;
   bool needs_spread(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
                     const Tolerance& floor, std::size_t i) const;
-  bool tells_apart(int field, const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) const;
+  bool places_differ(int field, const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) const;
   std::optional<std::size_t> worst_state(std::size_t vessel, const GatheredPlanes& side, std::size_t i) const;
   bool asks_worst_state(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
                         std::size_t i) const;
@@ -137,7 +137,7 @@ class Comparer {
   double moves_state(std::size_t vessel, const GripInput& grip, std::size_t state) const;
   double shift(std::size_t vessel) const;
   double corner(std::size_t vessel) const;
-  std::optional<std::size_t> place_told(double told, const std::vector<double>& listed, double largest) const;
+  std::optional<std::size_t> listed_place(double reported, const std::vector<double>& listed, double largest) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
   void count_outside(Comparison& entry, std::size_t vessel, std::size_t grip, double difference);
 

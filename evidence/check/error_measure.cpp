@@ -164,7 +164,7 @@ std::vector<ErrorRow> ErrorMeasure::measure(const std::vector<ErrorVariant>& var
 ErrorRow ErrorMeasure::compared_row(const ErrorVariant& variant) {
   ErrorRow row;
   row.variant = variant;
-  row.errors.fill(figures_of({}, {}));
+  row.errors.fill(error_figures({}, {}));
   const Scene& scene = variant.scene ? *variant.scene : scene_;
   // a device has no states' efforts of its own
   const bool brackets = variant.axis == SweptAxis::effort && variant.on_core;

@@ -179,7 +179,7 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
       }
     }
   }
-  for (int q = 0; q < ERROR_QUANTITIES; ++q) row.errors[q] = figures_of(errors[q].values, errors[q].where);
+  for (int q = 0; q < ERROR_QUANTITIES; ++q) row.errors[q] = error_figures(errors[q].values, errors[q].where);
   if (comparable.outcomes) row.feasible_flips = feasible_flips;
   if (!comparable.pose) return;
   row.touch_flips = touch_flips;
@@ -214,8 +214,8 @@ void ErrorReference::compare_liquid(const std::vector<std::vector<LiquidResult>>
       center.add(1e6 * std::hypot(figure_difference(a[0], b[0]), figure_difference(a[1], b[1])), v, s);
     }
   }
-  row.errors[ERROR_VOLUME] = figures_of(volume.values, volume.where);
-  row.errors[ERROR_COM] = figures_of(center.values, center.where);
+  row.errors[ERROR_VOLUME] = error_figures(volume.values, volume.where);
+  row.errors[ERROR_COM] = error_figures(center.values, center.where);
 }
 
 // The signed distance itself, inside and as far out as a touching point's center.
@@ -233,7 +233,7 @@ ErrorFigures ErrorReference::compare_distance(const Evaluator& core) const {
       errors.add(1e6 * figure_difference(core.distance(v, p), reference_->distance(v, p)), v, i);
     }
   }
-  return figures_of(errors.values, errors.where);
+  return error_figures(errors.values, errors.where);
 }
 
 }  // namespace wholehand

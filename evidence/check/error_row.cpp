@@ -18,7 +18,7 @@ double middle(std::vector<double> values) {
 
 }  // namespace
 
-ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std::string>& where) {
+ErrorFigures error_figures(const std::vector<double>& errors, const std::vector<std::string>& where) {
   if (errors.empty()) return {NO_FIGURE, NO_FIGURE, NO_FIGURE, "", 0};
   std::vector<std::size_t> order(errors.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -44,7 +44,7 @@ struct ErrorFigures {
 };
 
 // By nearest rank, NaN-safe: a value that only one side lacks is infinite. `where` names each error's place.
-ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std::string>& where);
+ErrorFigures error_figures(const std::vector<double>& errors, const std::vector<std::string>& where);
 
 // A time by several runs of it.
 struct TimeFigures {

@@ -105,7 +105,7 @@ void write_error_results(const std::string& output, const std::vector<ErrorRow>&
   const auto pictures = front_pictures(folder, rows, context);
   const std::string complaint = write_pictures(front_files(pictures, rows));
   print(report + "\n");
-  if (!complaint.empty()) say_note(complaint);
+  if (!complaint.empty()) print_note(complaint);
   std::string written = fmt::format("wrote {0}error-time.csv, {0}error-time-grips.csv, {0}error-time.md", folder);
   if (complaint.empty())
     for (const FrontPicture& picture : pictures) written += ", " + picture.file;
@@ -135,7 +135,7 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   });
   show_status("");
   if (interrupt.flag()) {
-    say_note(fmt::format("interrupted while comparing and timing {}; nothing was written", counted(variants.size(), "variant")));
+    print_note(fmt::format("interrupted while comparing and timing {}; nothing was written", counted(variants.size(), "variant")));
     return ExitCode::interrupted;
   }
   if (options.on == "core" && !rows.empty()) {

@@ -13,9 +13,9 @@
 
 namespace wholehand {
 
-// A scene with what makes it hard and what must come out, each a line.
+// A scene, what it stresses and what is expected of it, each a line.
 struct ExtremeCase {
-  std::string name, hard, comes_out;
+  std::string name, stresses, expected;
   Scene scene;
 };
 

@@ -232,7 +232,7 @@ void write_extremes(std::string& out, const std::vector<ExtremeCase>& cases, con
         beyond += fmt::format("{}{} {}", beyond.empty() ? "" : ", ", row.backend == "core" ? "core" : "device",
                               row.precision == Precision::single ? "float" : "double");
     }
-    append_formatted(out, "| {} | {} | {} | {} | {} | {} | {} | {} |\n", extreme.name, extreme.comes_out, feasible, cells[0],
+    append_formatted(out, "| {} | {} | {} | {} | {} | {} | {} | {} |\n", extreme.name, extreme.expected, feasible, cells[0],
                      cells[1], cells[2], cells[3], beyond);
   }
   append_formatted(out,
@@ -312,7 +312,7 @@ void draw_stability_pictures(const std::string& folder, const std::vector<WallSh
   for (const PictureFile& picture : pictures)
     std::remove(picture.path.c_str());  // one of another run beside these tables would mislead
   const std::string failure = write_pictures(pictures);
-  if (!failure.empty()) say_note(failure);
+  if (!failure.empty()) print_note(failure);
 }
 
 }  // namespace
@@ -326,7 +326,7 @@ ExitCode run_stability(const StabilityOptions& options) {
   InterruptGuard interrupt;
   if (!compute_stability(options, runner, interrupt, stability)) {
     show_status("");
-    say_note("interrupted; nothing was written");
+    print_note("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
   show_status("summary");

@@ -53,8 +53,8 @@ std::vector<int> fields_of_file(const SweepResult& result, const Scene& scene) {
       result.find("feedback_force") && result.find("normal_force") && (has_effort(scene) || result.find("hold_force"));
   std::set<int> fields;
   for (const Variable* variable : result.variables()) {
-    const bool is_told_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
-    if (variable->type == NumberType::real && (has_states || !is_told_tilt)) fields.insert(variable->field);
+    const bool is_reported_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
+    if (variable->type == NumberType::real && (has_states || !is_reported_tilt)) fields.insert(variable->field);
   }
   std::vector<int> all(fields.begin(), fields.end());
   all.insert(all.end(), {FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_TIP_MASK, FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK});
@@ -195,7 +195,7 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
     // a tilt has no row of its own: where all states are kept, the forces at it are compared
     const bool is_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
     const bool is_real = variable->type == NumberType::real && is_kept(fields, variable->field) &&
-                         (is_tilt || is_told(scene, field_row(variable->field)));
+                         (is_tilt || is_compared_by_number(scene, field_row(variable->field)));
     if (!is_real && std::find(agreement.outcomes.begin(), agreement.outcomes.end(), variable->name) == agreement.outcomes.end())
       agreement.uncompared.emplace_back(variable->name);
   }

@@ -227,7 +227,7 @@ bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   };
   const auto meshes = [](const SweepOrigin& from) { return from.mesh_keys.empty() ? "none" : "files"; };
   const auto precision = [](const SweepOrigin& from) { return from.precision == Precision::single ? "float" : "double"; };
-  const auto rules_a = rules_of(a.scene), rules_b = rules_of(b.scene);
+  const auto rules_a = scene_rules(a.scene), rules_b = scene_rules(b.scene);
   const auto is_shared = shared_rules(a.scene, b.scene);
   for (std::size_t k = 0; k < RULE_COUNT; ++k) add(rules_a[k].name, is_shared[k], rules_a[k].text, rules_b[k].text, true);
   add("meshes", from_a.mesh_keys == from_b.mesh_keys, meshes(from_a), meshes(from_b), false);

@@ -76,10 +76,10 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
       columns.push_back("antipodal");
     }
   }
-  const bool tells_refined = has_refined(best);
-  if (tells_refined) columns.insert(columns.end(), {"refined score", "refined grip"});
-  const bool tells_robust = has_robust(best);
-  if (tells_robust) columns.insert(columns.end(), {"robust low", "robust mean", "share that holds"});
+  const bool reports_refined = has_refined(best);
+  if (reports_refined) columns.insert(columns.end(), {"refined score", "refined grip"});
+  const bool reports_robust = has_robust(best);
+  if (reports_robust) columns.insert(columns.end(), {"robust low", "robust mean", "share that holds"});
   HtmlTable table(html,
                   fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : counted(best.grips.size(), "grip"),
                               list_name(source.scene, plan, list)),
@@ -107,11 +107,11 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
         cells.push_back(b.antipodal ? "yes" : "no");
       }
     }
-    if (tells_refined) {
+    if (reports_refined) {
       cells.push_back(shown_number(b.refined_score, 3));
       cells.push_back(is_refined(b) ? grip_text(plan, b.refined) : "");
     }
-    if (tells_robust)
+    if (reports_robust)
       cells.insert(cells.end(), {shown_number(b.robust.low, 3), shown_number(b.robust.mean, 3), shown_number(b.robust.share, 2)});
     table.row(cells);
   }
@@ -141,14 +141,14 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
                     const std::vector<RankedReport>& reports) {
   const std::string name = list_name(source.scene, source.plan, list);
   MarkupWriter drawings;
-  std::string trouble;
+  std::string refusal;
   std::size_t drawn = 0;
   bool has_forces = false;
   for (std::size_t rank = 0; rank < std::min(DRAWN_GRIPS, best.grips.size()); ++rank) {
     try {
       draw_grip(drawings, source, list, best.grips[rank], reports, rank);
     } catch (const Error& error) {
-      trouble = error.what();
+      refusal = error.what();
       continue;
     }
     ++drawn;
@@ -165,15 +165,15 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
                     has_forces ? " Arrows show the forces of the hand on the vessel in the state that takes most effort." : ""));
     html.close();
   }
-  if (!trouble.empty())
-    html.element("p", fmt::format("{} of the best grips cannot be drawn: {}.", drawn == 0 ? "The first" : "Some", trouble));
+  if (!refusal.empty())
+    html.element("p", fmt::format("{} of the best grips cannot be drawn: {}.", drawn == 0 ? "The first" : "Some", refusal));
 }
 
-// How the grips hold and what limits them, by the core. Nothing without tells_efforts.
+// How the grips hold and what limits them, by the core. Nothing without reports_efforts.
 void write_limits(MarkupWriter& html, const ReportSource& source, std::size_t list, const std::vector<RankedReport>& reports) {
   const std::string name = list_name(source.scene, source.plan, list);
   const std::size_t drawn = std::min(DRAWN_GRIPS, reports.size());
-  if (!tells_efforts(source.scene)) return;
+  if (!reports_efforts(source.scene)) return;
   write_digits(html, source.scene, {reports.begin(), reports.begin() + static_cast<std::ptrdiff_t>(drawn)}, name);
   write_margins(html, source.scene, reports, name);
   if (reports.size() == drawn) return;
@@ -271,7 +271,7 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
   std::vector<RankedReport> reports;
   if (source.core) {
     // where there are efforts all are reported, otherwise only the drawn ones
-    const std::size_t asked = tells_efforts(source.scene) ? best.grips.size() : std::min(DRAWN_GRIPS, best.grips.size());
+    const std::size_t asked = reports_efforts(source.scene) ? best.grips.size() : std::min(DRAWN_GRIPS, best.grips.size());
     for (std::size_t k = 0; k < asked; ++k) {
       reports.push_back({best.grips[k].rank, grip_with_holding(source, list / scales, best.grips[k].grip)});
       if (!std::isnan(best.grips[k].robust.share)) reports.back().report.held_share = best.grips[k].robust.share;

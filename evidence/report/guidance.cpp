@@ -18,7 +18,7 @@ namespace wholehand {
 namespace {
 
 std::string r_text(const Correlation& correlation) {
-  return correlation.r ? shown_number(*correlation.r, 2) : std::string("none, ") + words_of(correlation.lack);
+  return correlation.r ? shown_number(*correlation.r, 2) : std::string("none, ") + lack_words(correlation.lack);
 }
 
 std::string in_mm(double meters, int digits = 1) { return shown_number(meters * 1e3, digits); }
@@ -117,7 +117,7 @@ void write_point_table(MarkupWriter& html, const GuidanceStatistics& statistics,
     table.row({JOINT_NAMES[j].paper,
                shown_number(100.0 * static_cast<double>(point.touching) / static_cast<double>(statistics.grips), 1),
                in_mm(point.distance_touching), in_mm(point.distance_free),
-               point.correlation.r ? shown_number(*point.correlation.r, 2) : words_of(point.correlation.lack)});
+               point.correlation.r ? shown_number(*point.correlation.r, 2) : lack_words(point.correlation.lack)});
   }
   table.end();
 }
@@ -199,10 +199,11 @@ void write_guidance(MarkupWriter& html, const ReportSource& source, std::size_t 
     html.element("p", "There is no such grip, so there is nothing to count.");
     return;
   }
-  html.element("p", fmt::format("Distances go from {} to {} mm; {} fingers are used on average. Fingers used and distance: {}.",
-                                in_mm(statistics.nearest), in_mm(statistics.farthest), shown_number(statistics.mean_fingers, 2),
-                                statistics.fingers.r ? fmt::format("Pearson's r = {}", shown_number(*statistics.fingers.r, 2))
-                                                     : std::string("no correlation (") + words_of(statistics.fingers.lack) + ")"));
+  html.element("p",
+               fmt::format("Distances go from {} to {} mm; {} fingers are used on average. Fingers used and distance: {}.",
+                           in_mm(statistics.nearest), in_mm(statistics.farthest), shown_number(statistics.mean_fingers, 2),
+                           statistics.fingers.r ? fmt::format("Pearson's r = {}", shown_number(*statistics.fingers.r, 2))
+                                                : std::string("no correlation (") + lack_words(statistics.fingers.lack) + ")"));
   write_charts(html, statistics, data.name, id);
   write_point_table(html, statistics, data.name);
   html.element("p",

@@ -47,7 +47,7 @@ double apart(const Triple& a, const Triple& b) { return std::hypot(a[0] - b[0], 
 
 }  // namespace
 
-const char* words_of(Lack lack) {
+const char* lack_words(Lack lack) {
   switch (lack) {
     case Lack::fewer_than_3:
       return "fewer than three grips";

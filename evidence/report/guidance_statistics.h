@@ -13,7 +13,7 @@
 namespace wholehand {
 
 // Why grips have no correlation, in words; empty where there is one.
-const char* words_of(Lack lack);
+const char* lack_words(Lack lack);
 
 // A grip as it is counted.
 struct GuidedGrip {

@@ -41,9 +41,9 @@ std::string fullest_text(const Scene& scene, std::size_t vessel) {
 }
 
 // A line in words, for those who do not see it.
-std::string effort_text(const Scene& scene, const std::string& who, const std::vector<double>& efforts) {
-  if (!any_finite(efforts)) return fmt::format("{}: no force holds the vessel at any tilt. ", who);
-  const std::string range = fmt::format("{}: {} at {}°, at most {}", who, shown_number(efforts.front(), 2),
+std::string effort_text(const Scene& scene, const std::string& subject, const std::vector<double>& efforts) {
+  if (!any_finite(efforts)) return fmt::format("{}: no force holds the vessel at any tilt. ", subject);
+  const std::string range = fmt::format("{}: {} at {}°, at most {}", subject, shown_number(efforts.front(), 2),
                                         shown_number(degrees(scene.tilts.front()), 0), shown_number(largest_finite(efforts), 2));
   return range + (any_infinite(efforts) ? " where a force holds the vessel, and infinite elsewhere. " : ". ");
 }
@@ -101,7 +101,7 @@ void write_effort_table(MarkupWriter& html, const Scene& scene, const std::strin
 
 }  // namespace
 
-bool tells_efforts(const Scene& scene) { return scene.strength && !scene.tilts.empty(); }
+bool reports_efforts(const Scene& scene) { return scene.strength && !scene.tilts.empty(); }
 
 GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
   GripReport report = make_grip_report(source.scene, vessel, grip, scene_axes(source.scene, vessel),
@@ -150,7 +150,7 @@ TiltEfforts efforts_over_tilt(const ReportSource& source, std::size_t vessel, co
   TiltEfforts efforts;
   const Scene& scene = source.scene;
   const StateAxes axes = scene_axes(scene, vessel);
-  if (!tells_efforts(scene)) return efforts;
+  if (!reports_efforts(scene)) return efforts;
   const GripFindings answer = core_grip_methods(scene, source.core, "core").answer(vessel, grip, axes);
   if (answer.result.reason != Reason::none) return efforts;
   const Holding holding(scene, *source.core, vessel, answer.result, pour_direction(scene, grip));
@@ -165,7 +165,7 @@ TiltEfforts efforts_over_tilt(const ReportSource& source, std::size_t vessel, co
 void write_efforts(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const GripInput& grip,
                    const std::string& id) {
   const Scene& scene = source.scene;
-  if (!tells_efforts(scene)) return;
+  if (!reports_efforts(scene)) return;
   html.element("h3", "Effort over the tilt", {{"id", id + "-efforts"}});
   if (!source.core) {
     html.element("p", fmt::format("This part is left out: {}.", source.no_core));

@@ -12,7 +12,7 @@
 namespace wholehand {
 
 // Whether the report has efforts: the scene has [strength] and tilts.
-bool tells_efforts(const Scene& scene);
+bool reports_efforts(const Scene& scene);
 
 // The grip by the core over the scene's own states; with what holding takes where the scene has [strength]. Needs the core.
 GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, const GripInput& grip);
@@ -32,10 +32,10 @@ void write_digits(MarkupWriter& html, const Scene& scene, const std::vector<Rank
 struct TiltEfforts {
   std::vector<double> whole, tips;
 };
-// By the core. Empty where the grip is not feasible, or without tells_efforts.
+// By the core. Empty where the grip is not feasible, or without reports_efforts.
 TiltEfforts efforts_over_tilt(const ReportSource& source, std::size_t vessel, const GripInput& grip);
 
-// A chart and a table of them, or a sentence in their place. Nothing without tells_efforts.
+// A chart and a table of them, or a sentence in their place. Nothing without reports_efforts.
 void write_efforts(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const GripInput& grip,
                    const std::string& id);
 

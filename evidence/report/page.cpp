@@ -132,7 +132,7 @@ class Page {
       for (std::size_t v = 0; v < scene_.vessels.size(); ++v) maps_.push_back(read_map(source_, v));
     scales_ = map_scales(maps_);
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) write_vessel(v);
-    const bool has_efforts = tells_efforts(scene_);
+    const bool has_efforts = reports_efforts(scene_);
     if (has_efforts) write_protocols(html_);
     write_words(html_, scene_, has_efforts);
     html_.close();
@@ -186,10 +186,10 @@ class Page {
       html_.text(fmt::format(" The best grip scores {}: {}.", shown_number(first.score, 3), grip_text(source_.plan, first.grip)));
     }
     html_.close();
-    std::set<std::string> said;  // once for all hands
+    std::set<std::string> noted;  // once for all hands
     for (const ReportedGrips& best : lists) {
       const std::string edge = edge_line(edge_axes(scene_, source_.plan, v, best_first({best})));
-      if (!edge.empty() && said.insert(edge).second) html_.element("p", sentence(edge));
+      if (!edge.empty() && noted.insert(edge).second) html_.element("p", sentence(edge));
     }
   }
 
@@ -210,14 +210,14 @@ class Page {
 
 }  // namespace
 
-std::string report_page(SweepResult& result, const Scene& given, const std::string& trouble, const std::string& lists_file) {
+std::string report_page(SweepResult& result, const Scene& given, const std::string& mesh_error, const std::string& lists_file) {
   Scene scene = given;
   set_heights(result, scene);
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
-  ReportSource source{result, scene, plan, nullptr, trouble, std::nullopt, lists_file.substr(lists_file.rfind('/') + 1)};
+  ReportSource source{result, scene, plan, nullptr, mesh_error, std::nullopt, lists_file.substr(lists_file.rfind('/') + 1)};
   if (!lists_file.empty()) source.lists = read_grip_lists(lists_file, result, scene, plan);
-  if (trouble.empty()) {
+  if (mesh_error.empty()) {
     try {
       source.core = make_core_evaluator(scene);
     } catch (const Error& error) {

@@ -14,7 +14,7 @@ namespace wholehand {
 // describes, with its meshes read where they could be; `trouble`: why they could not, empty where nothing is missing. What then cannot be
 // computed is left out with a sentence. `lists_file`: a list of `wholehand rank` whose grips stand for the sweep's best, or empty. Throws Error
 // (usage) where the file does not fit its scene, or the list the file.
-std::string report_page(SweepResult& result, const Scene& scene, const std::string& trouble = "",
+std::string report_page(SweepResult& result, const Scene& scene, const std::string& mesh_error = "",
                         const std::string& lists_file = "");
 
 // The start of such a page: the element html, which stays open, and its head with the style and the mark of a page of wholehand's.

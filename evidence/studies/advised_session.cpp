@@ -89,19 +89,19 @@ AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64
   options.grips = STUDY_CLOUD;
   SteppedAdvice advice(own, open, options);
   outcome.with = play(own, participant, tremor, jobs, &advice, stop);
-  if (const std::vector<std::string> news = advice.news(); !news.empty())
-    throw failure_error(fmt::format("person {} has no session with advice: {}", person, news.front()));
+  if (const std::vector<std::string> warnings = advice.take_warnings(); !warnings.empty())
+    throw failure_error(fmt::format("person {} has no session with advice: {}", person, warnings.front()));
   return outcome;
 }
 
-std::vector<double> numbers_of(const AdvisedPerson& person) {
+std::vector<double> to_numbers(const AdvisedPerson& person) {
   std::vector<double> numbers;
   for (const AdvisedOutcome* one : {&person.without, &person.with})
     for (const auto member : OUTCOME_NUMBERS) numbers.push_back(one->*member);
   return numbers;
 }
 
-AdvisedPerson advised_person_of(const std::vector<double>& numbers) {
+AdvisedPerson person_from_numbers(const std::vector<double>& numbers) {
   AdvisedPerson person;
   if (numbers.size() != 2 * OUTCOME_NUMBERS.size()) return person;
   std::size_t at = 0;

@@ -58,7 +58,7 @@ AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64
                              const AdviceLoop::AdviserOpener& open);
 
 // As numbers, to the bit, for a journal.
-std::vector<double> numbers_of(const AdvisedPerson& person);
-AdvisedPerson advised_person_of(const std::vector<double>& numbers);
+std::vector<double> to_numbers(const AdvisedPerson& person);
+AdvisedPerson person_from_numbers(const std::vector<double>& numbers);
 
 }  // namespace wholehand

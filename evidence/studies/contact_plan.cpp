@@ -85,10 +85,10 @@ double planned_azimuth(const Scene& scene, const GuidancePoint& point) {
 
 // The planned grip with the person's habits and this grasp's scatter.
 GripInput scattered(GripInput grip, const Traits& traits) {
-  grip.height += of(traits, Trait::height);
-  grip.azimuth += of(traits, Trait::azimuth);
-  grip.obliquity += of(traits, Trait::obliquity);
-  grip.roll += of(traits, Trait::roll);
+  grip.height += traits[Trait::height];
+  grip.azimuth += traits[Trait::azimuth];
+  grip.obliquity += traits[Trait::obliquity];
+  grip.roll += traits[Trait::roll];
   return grip;
 }
 

@@ -28,9 +28,9 @@ void StudyFolder::write(const Scene& scene, const StudyOptions& options, const S
   try {
     // the table gets its name first: beside it a folder's study.nc is known as ours
     set.write(files_.csv, study_csv(rows), STUDY_REMEDY);
-    write_study_dataset(set.on_the_way(files_.nc), scene, options, rows);
+    write_study_dataset(set.temporary_path(files_.nc), scene, options, rows);
     set.write(files_.page, study_page(page), STUDY_REMEDY);
-    set.give_names(STUDY_REMEDY);
+    set.commit(STUDY_REMEDY);
   } catch (const Error& error) {
     throw Error(error.code, set.with_own_names(error.what()), error.remedy);
   }

@@ -24,7 +24,7 @@ ForcesOfPerson forces_of_person(const Scene& scene, std::size_t vessel, std::uin
   return forces;
 }
 
-std::vector<double> numbers_of(const ForcesOfPerson& forces) {
+std::vector<double> to_numbers(const ForcesOfPerson& forces) {
   std::vector<double> numbers;
   for (const ForceOutcome& one : forces)
     numbers.insert(numbers.end(), {one.has_gripped ? 1.0 : 0.0, one.has_succeeded ? 1.0 : 0.0, one.oscillates ? 1.0 : 0.0,
@@ -32,7 +32,7 @@ std::vector<double> numbers_of(const ForcesOfPerson& forces) {
   return numbers;
 }
 
-ForcesOfPerson forces_of(const std::vector<double>& numbers) {
+ForcesOfPerson forces_from_numbers(const std::vector<double>& numbers) {
   ForcesOfPerson forces{};
   if (numbers.size() != 5 * forces.size()) return forces;
   std::size_t at = 0;

@@ -16,7 +16,7 @@ ForcesOfPerson forces_of_person(const Scene& scene, std::size_t vessel, std::uin
                                 const std::atomic<bool>& stop);
 
 // As numbers, to the bit, for a journal.
-std::vector<double> numbers_of(const ForcesOfPerson& forces);
-ForcesOfPerson forces_of(const std::vector<double>& numbers);
+std::vector<double> to_numbers(const ForcesOfPerson& forces);
+ForcesOfPerson forces_from_numbers(const std::vector<double>& numbers);
 
 }  // namespace wholehand

@@ -38,7 +38,7 @@ const std::vector<double>* StudyJournal::find(const std::string& experiment, std
   return found == done_.end() ? nullptr : &found->second;
 }
 
-std::size_t StudyJournal::done_of(const std::string& experiment, std::uint64_t people) const {
+std::size_t StudyJournal::people_done(const std::string& experiment, std::uint64_t people) const {
   std::size_t count = 0;
   for (const auto& [part, numbers] : done_) count += part.first == experiment && part.second < people ? 1 : 0;
   return count;

@@ -28,7 +28,7 @@ class StudyJournal {
   const std::vector<double>* find(const std::string& experiment, std::uint64_t person) const;
   std::size_t done() const { return done_.size(); }
   // How many of people 0, 1, .. below `people` are done.
-  std::size_t done_of(const std::string& experiment, std::uint64_t people) const;
+  std::size_t people_done(const std::string& experiment, std::uint64_t people) const;
   // How many parts were there that people 0, 1, .. of these experiments do not need.
   std::size_t done_beside(std::uint64_t forces, std::uint64_t sessions, std::uint64_t advice) const;
   // Lines that are not as they were written. Their people are done again.

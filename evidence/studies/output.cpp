@@ -33,7 +33,7 @@ void prepare_study_folder(const std::string& folder) {
 
 void remove_unfinished_study(const StudyFiles& files) {
   for (const std::string& path : {files.csv, files.nc, files.page, files.journal})
-    std::remove(FileSet::name_on_the_way(path).c_str());
+    std::remove(FileSet::temporary_name(path).c_str());
 }
 
 }  // namespace wholehand

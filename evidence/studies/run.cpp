@@ -88,7 +88,7 @@ class StudyRun {
     if (std::max({options_.people.forces, options_.people.sessions, options_.people.advice}) > 0) open_journal();
     const bool done = run_contacts() && run_forces() && run_sessions() && run_advice();
     if (!done) {
-      say_note(journal_ ? "interrupted; no table is written. Go on with --resume" : "interrupted; nothing is written");
+      print_note(journal_ ? "interrupted; no table is written. Go on with --resume" : "interrupted; nothing is written");
       return ExitCode::interrupted;
     }
     if (!sensitivity_.empty()) page_.sections.push_back(sensitivity_section(sensitivity_));
@@ -145,23 +145,23 @@ class StudyRun {
     const std::size_t given_up = options_.resumes ? 0 : parts_in_journal(folder_->files().journal);
     journal_ = std::make_unique<StudyJournal>(folder_->files().journal, identity, options_.resumes);
     if (given_up > 0)
-      say_note(fmt::format("{} of an interrupted study are given up; --resume would have kept them", counted(given_up, "part")));
+      print_note(fmt::format("{} of an interrupted study are given up; --resume would have kept them", counted(given_up, "part")));
     if (journal_->done() > 0) {
-      const std::size_t forces = journal_->done_of("forces", options_.people.forces),
-                        sessions = journal_->done_of("sessions", options_.people.sessions);
+      const std::size_t forces = journal_->people_done("forces", options_.people.forces),
+                        sessions = journal_->people_done("sessions", options_.people.sessions);
       if (options_.people.advice > 0)
-        say_note(fmt::format("goes on: {} of {} people of advice are done",
-                             readable_number(journal_->done_of("advice", options_.people.advice)),
-                             readable_number(options_.people.advice)));
+        print_note(fmt::format("goes on: {} of {} people of advice are done",
+                               readable_number(journal_->people_done("advice", options_.people.advice)),
+                               readable_number(options_.people.advice)));
       if (options_.people.forces > 0 || options_.people.sessions > 0)
-        say_note(fmt::format("goes on: {} of {} people of forces and {} of {} people of sessions are done", readable_number(forces),
-                             readable_number(options_.people.forces), readable_number(sessions),
-                             readable_number(options_.people.sessions)));
+        print_note(fmt::format("goes on: {} of {} people of forces and {} of {} people of sessions are done",
+                               readable_number(forces), readable_number(options_.people.forces), readable_number(sessions),
+                               readable_number(options_.people.sessions)));
     } else if (options_.resumes) {
-      say_note("there is no interrupted study in this folder; it begins anew");
+      print_note("there is no interrupted study in this folder; it begins anew");
     }
     if (journal_->damaged() > 0)
-      say_note(
+      print_note(
           fmt::format("the journal has {} that cannot be read; these people are done again", counted(journal_->damaged(), "line")));
   }
 
@@ -173,8 +173,8 @@ class StudyRun {
     if (others == 0) {
       std::remove(folder_->files().journal.c_str());
     } else {
-      say_note(fmt::format("{} stays: it has {} of people or experiments that were not asked for now", folder_->files().journal,
-                           counted(others, "part")));
+      print_note(fmt::format("{} stays: it has {} of people or experiments that were not asked for now", folder_->files().journal,
+                             counted(others, "part")));
     }
   }
 
@@ -189,7 +189,8 @@ class StudyRun {
     const std::string grasps = counted(contacts_->grasps().size(), "grasp");
     say(fmt::format("contacts, {} with {} each, in {} poses", counted(people, "person", "people"), grasps, STUDY_POSES.size()));
     if (!contacts_->unheld().empty())
-      say_note(fmt::format("the mean person cannot hold {}: there everybody plans the roll 0", joined(contacts_->unheld(), ", ")));
+      print_note(
+          fmt::format("the mean person cannot hold {}: there everybody plans the roll 0", joined(contacts_->unheld(), ", ")));
     std::optional<ContactStudy> study = study_contacts(*contacts_, options_, *stop_);
     if (!study) return false;
     add_contact_sections(page_, *contacts_, study->rows);
@@ -204,17 +205,17 @@ class StudyRun {
     const std::string& vessel = scene_.vessels[force_vessel_].name;
     say(fmt::format("forces, {} with {} choices each, on {}", counted(people, "person", "people"), FORCE_CHOICES, vessel));
     const auto numbers = of_people("forces", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
-      return numbers_of(forces_of_person(scene_, force_vessel_, options_.seed, person, *stop_));
+      return to_numbers(forces_of_person(scene_, force_vessel_, options_.seed, person, *stop_));
     });
     if (*stop_) return false;
     std::vector<ForcesOfPerson> found;
-    for (const auto& of_person : numbers) found.push_back(forces_of(of_person));
+    for (const auto& of_person : numbers) found.push_back(forces_from_numbers(of_person));
     const auto gripped = std::count_if(found.begin(), found.end(), [](const ForcesOfPerson& forces) {
       return std::all_of(forces.begin(), forces.end(), [](const ForceOutcome& one) { return one.has_gripped; });
     });
     if (static_cast<std::uint64_t>(gripped) < people)
-      say_note(fmt::format("{} of {} people did not grip in every trial; they are left out where they did not",
-                           readable_number(people - static_cast<std::uint64_t>(gripped)), readable_number(people)));
+      print_note(fmt::format("{} of {} people did not grip in every trial; they are left out where they did not",
+                             readable_number(people - static_cast<std::uint64_t>(gripped)), readable_number(people)));
     std::vector<StudyRow> rows = force_rows(found, vessel, options_.seed, options_.resamples, options_.threads);
     page_.sections.push_back(force_section(rows));
     lead_.push_back("forces: " + counted(people, "person", "people"));
@@ -227,19 +228,20 @@ class StudyRun {
     if (people == 0) return true;
     say(fmt::format("sessions, {} the task {} times", counted(people, "person who does", "people who do"), SESSIONS_PER_PERSON));
     const auto numbers = of_people("sessions", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
-      return numbers_of(sessions_of_person(scene_, options_.seed, person, *stop_));
+      return to_numbers(sessions_of_person(scene_, options_.seed, person, *stop_));
     });
     if (*stop_) return false;
     std::vector<SessionSubject> found;
     std::uint64_t broken = 0, without = 0;
     for (const auto& of_person : numbers) {
-      PersonSessions sessions = sessions_of(of_person);
+      PersonSessions sessions = sessions_from_numbers(of_person);
       broken += static_cast<std::uint64_t>(sessions.broken);
       without += sessions.grasps.empty() ? 1 : 0;
       found.push_back({std::move(sessions.grasps)});
     }
     if (broken > 0)
-      say_note(fmt::format("{} did not come to an end by themselves; what was done until then counts", counted(broken, "session")));
+      print_note(
+          fmt::format("{} did not come to an end by themselves; what was done until then counts", counted(broken, "session")));
     std::vector<StudyRow> rows = session_rows(found, session_vessels_, {options_.seed, options_.resamples, options_.threads, true});
     add_share(rows, "people_with_grasps_share", people - without, people);
     add_share(rows, "whole_sessions_share", people * SESSIONS_PER_PERSON - broken, people * SESSIONS_PER_PERSON);
@@ -255,16 +257,16 @@ class StudyRun {
     if (people == 0) return true;
     say(fmt::format("advice, {} the task without and with it", counted(people, "person who does", "people who do")));
     const auto numbers = of_people("advice", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
-      return numbers_of(advised_person(scene_, options_.seed, person, *stop_));
+      return to_numbers(advised_person(scene_, options_.seed, person, *stop_));
     });
     if (*stop_) return false;
     std::vector<AdvisedPerson> found;
-    for (const auto& of_person : numbers) found.push_back(advised_person_of(of_person));
+    for (const auto& of_person : numbers) found.push_back(person_from_numbers(of_person));
     const auto broken = std::count_if(found.begin(), found.end(),
                                       [](const AdvisedPerson& one) { return one.without.is_whole == 0 || one.with.is_whole == 0; });
     if (broken > 0)
-      say_note(fmt::format("{} of {} people have a session that did not come to an end by itself; their times do not count",
-                           readable_number(static_cast<std::uint64_t>(broken)), readable_number(people)));
+      print_note(fmt::format("{} of {} people have a session that did not come to an end by itself; their times do not count",
+                             readable_number(static_cast<std::uint64_t>(broken)), readable_number(people)));
     std::vector<StudyRow> rows = advice_rows(found, options_.seed, options_.resamples, options_.threads);
     page_.sections.push_back(advice_section(rows));
     lead_.push_back("advice: " + counted(people, "person", "people"));

@@ -30,11 +30,11 @@ using GraspsByVessel = std::vector<GraspList>;  // in the order of the SessionVe
 
 // ---- statistics of grasps ----
 
-enum class Said { mean, deviation, correlation };
+enum class Summary { mean, deviation, correlation };
 
 struct Measure {
   const char* name;
-  Said said;
+  Summary summary;
   Number number;
   Number with = nullptr;  // of a correlation
 };
@@ -50,46 +50,46 @@ struct OfVessel {
 };
 
 const std::array<OfAll, 19> OF_ALL{{
-    {{"response_time_mean", Said::mean, response_time}, 0.106},
-    {{"response_time_deviation", Said::deviation, response_time}, 0.095},
-    {{"grip_stopped_mean", Said::mean, grip_stopped}, 3.76},
-    {{"grip_stopped_deviation", Said::deviation, grip_stopped}, 0.08},
-    {{"grip_after_mean", Said::mean, grip_after}, 4.87},
-    {{"grip_after_deviation", Said::deviation, grip_after}, 1.67},
-    {{"tilt_time_mean", Said::mean, tilt_time}, 3.647},
-    {{"tilt_time_deviation", Said::deviation, tilt_time}, 1.392},
-    {{"maintained_time_mean", Said::mean, maintained_time}, 4.12},
-    {{"maintained_over_8N_share", Said::mean, is_hard}, 2.0 / 61},
-    {{"maintained_under_1N_share", Said::mean, is_soft}, 3.0 / 61},
-    {{"g1_share", Said::mean, has_course<GripCourse::equal>}},
-    {{"g2_share", Said::mean, has_course<GripCourse::more>}},
-    {{"g3_share", Said::mean, has_course<GripCourse::less>}},
-    {{"g4_share", Said::mean, has_course<GripCourse::complex>}, 7.0 / 71},
-    {{"rising_share", Said::mean, is_rising}, 62.0 / 71},
-    {{"falling_share", Said::mean, is_falling}, 6.0 / 71},
-    {{"lost_share", Said::mean, is_lost}},
-    {{"correlation_before_change", Said::correlation, grip_before, grip_change}, -0.184},
+    {{"response_time_mean", Summary::mean, response_time}, 0.106},
+    {{"response_time_deviation", Summary::deviation, response_time}, 0.095},
+    {{"grip_stopped_mean", Summary::mean, grip_stopped}, 3.76},
+    {{"grip_stopped_deviation", Summary::deviation, grip_stopped}, 0.08},
+    {{"grip_after_mean", Summary::mean, grip_after}, 4.87},
+    {{"grip_after_deviation", Summary::deviation, grip_after}, 1.67},
+    {{"tilt_time_mean", Summary::mean, tilt_time}, 3.647},
+    {{"tilt_time_deviation", Summary::deviation, tilt_time}, 1.392},
+    {{"maintained_time_mean", Summary::mean, maintained_time}, 4.12},
+    {{"maintained_over_8N_share", Summary::mean, is_hard}, 2.0 / 61},
+    {{"maintained_under_1N_share", Summary::mean, is_soft}, 3.0 / 61},
+    {{"g1_share", Summary::mean, has_course<GripCourse::equal>}},
+    {{"g2_share", Summary::mean, has_course<GripCourse::more>}},
+    {{"g3_share", Summary::mean, has_course<GripCourse::less>}},
+    {{"g4_share", Summary::mean, has_course<GripCourse::complex>}, 7.0 / 71},
+    {{"rising_share", Summary::mean, is_rising}, 62.0 / 71},
+    {{"falling_share", Summary::mean, is_falling}, 6.0 / 71},
+    {{"lost_share", Summary::mean, is_lost}},
+    {{"correlation_before_change", Summary::correlation, grip_before, grip_change}, -0.184},
 }};
 
 const std::array<OfVessel, 18> OF_VESSEL{{
-    {{"normal_increase_mean", Said::mean, normal_increase}, {0.56, 1.02, 2.33}},
-    {{"normal_increase_deviation", Said::deviation, normal_increase}, {0.29, 0.54, 0.34}},
-    {{"correlation_increase_change", Said::correlation, normal_increase, grip_change}, {-0.251, -0.223, 0.098}},
-    {{"grip_before_mean", Said::mean, grip_before}, {3.84, 3.38, 4.63}},
-    {{"grip_before_deviation", Said::deviation, grip_before}, {1.84, 1.33, 1.96}},
-    {{"grip_during_mean", Said::mean, grip_during}},
-    {{"grip_after_mean", Said::mean, grip_after}},
-    {{"response_time_mean", Said::mean, response_time}},
-    {{"grip_stopped_mean", Said::mean, grip_stopped}},
-    {{"g1_share", Said::mean, has_course<GripCourse::equal>}},
-    {{"g2_share", Said::mean, has_course<GripCourse::more>}},
-    {{"g3_share", Said::mean, has_course<GripCourse::less>}},
-    {{"g4_share", Said::mean, has_course<GripCourse::complex>}},
-    {{"rising_share", Said::mean, is_rising}},
-    {{"lost_share", Said::mean, is_lost}},
-    {{"tilted_share", Said::mean, has_tilt}},
-    {{"analysed_share", Said::mean, has_type}},
-    {{"saturated_share", Said::mean, is_saturated}},
+    {{"normal_increase_mean", Summary::mean, normal_increase}, {0.56, 1.02, 2.33}},
+    {{"normal_increase_deviation", Summary::deviation, normal_increase}, {0.29, 0.54, 0.34}},
+    {{"correlation_increase_change", Summary::correlation, normal_increase, grip_change}, {-0.251, -0.223, 0.098}},
+    {{"grip_before_mean", Summary::mean, grip_before}, {3.84, 3.38, 4.63}},
+    {{"grip_before_deviation", Summary::deviation, grip_before}, {1.84, 1.33, 1.96}},
+    {{"grip_during_mean", Summary::mean, grip_during}},
+    {{"grip_after_mean", Summary::mean, grip_after}},
+    {{"response_time_mean", Summary::mean, response_time}},
+    {{"grip_stopped_mean", Summary::mean, grip_stopped}},
+    {{"g1_share", Summary::mean, has_course<GripCourse::equal>}},
+    {{"g2_share", Summary::mean, has_course<GripCourse::more>}},
+    {{"g3_share", Summary::mean, has_course<GripCourse::less>}},
+    {{"g4_share", Summary::mean, has_course<GripCourse::complex>}},
+    {{"rising_share", Summary::mean, is_rising}},
+    {{"lost_share", Summary::mean, is_lost}},
+    {{"tilted_share", Summary::mean, has_tilt}},
+    {{"analysed_share", Summary::mean, has_type}},
+    {{"saturated_share", Summary::mean, is_saturated}},
 }};
 
 // Statistics that compare the normal increases of the vessels with each other.
@@ -100,11 +100,11 @@ struct BetweenVessels {
 const std::array<BetweenVessels, 4> BETWEEN{{{"anova_f"}, {"anova_p"}, {"anova_share"}, {"ordered_as_paper", 1}}};
 
 double value_of(const Measure& measure, const GraspList& grasps) {
-  if (measure.said != Said::correlation) {
+  if (measure.summary != Summary::correlation) {
     MeanSum sum;
     for (const GraspReport* grasp : grasps) sum.add(measure.number(*grasp));
     const MeanDeviation result = sum.result();
-    return measure.said == Said::mean ? result.mean : result.deviation;
+    return measure.summary == Summary::mean ? result.mean : result.deviation;
   }
   std::vector<double> x, y;
   for (const GraspReport* grasp : grasps) {

@@ -48,7 +48,7 @@ PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::u
   return all;
 }
 
-std::vector<double> numbers_of(const PersonSessions& sessions) {
+std::vector<double> to_numbers(const PersonSessions& sessions) {
   std::vector<double> numbers{static_cast<double>(sessions.broken)};
   for (const GraspReport& grasp : sessions.grasps) {
     for (const auto member : GRASP_REALS) numbers.push_back(grasp.*member);
@@ -63,7 +63,7 @@ std::vector<double> numbers_of(const PersonSessions& sessions) {
   return numbers;
 }
 
-PersonSessions sessions_of(const std::vector<double>& numbers) {
+PersonSessions sessions_from_numbers(const std::vector<double>& numbers) {
   PersonSessions sessions;
   if (numbers.empty()) return sessions;
   constexpr std::size_t EACH = GRASP_REALS.size() + 3 + 3 * GRASP_MEANS.size() + 3;

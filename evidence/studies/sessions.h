@@ -23,7 +23,7 @@ struct PersonSessions {
 PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop);
 
 // As numbers, to the bit, for a journal.
-std::vector<double> numbers_of(const PersonSessions& sessions);
-PersonSessions sessions_of(const std::vector<double>& numbers);
+std::vector<double> to_numbers(const PersonSessions& sessions);
+PersonSessions sessions_from_numbers(const std::vector<double>& numbers);
 
 }  // namespace wholehand

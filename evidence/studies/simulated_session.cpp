@@ -19,7 +19,7 @@ bool run_simulated(const SimulatedSession& asked, const std::function<bool(const
   LoopOptions options;
   options.is_simulated = true;
   options.seconds = asked.seconds;
-  std::exception_ptr trouble;
+  std::exception_ptr error;
   bool is_enough = false;
   // the loop lets nothing through
   const auto sink = [&](const Tick& tick) {
@@ -27,14 +27,14 @@ bool run_simulated(const SimulatedSession& asked, const std::function<bool(const
     try {
       is_enough = !take(tick);
     } catch (...) {
-      trouble = std::current_exception();
+      error = std::current_exception();
       is_enough = true;
     }
     return !is_enough;
   };
   HapticLoop loop(asked.scene.live, *gripper, session, sink, options);
   loop.run(stop);
-  if (trouble) std::rethrow_exception(trouble);
+  if (error) std::rethrow_exception(error);
   return is_enough || (loop.report().fault == Fault::none && gripper->is_done()) || stop;
 }
 

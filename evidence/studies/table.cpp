@@ -21,7 +21,7 @@ namespace {
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 // A correlation has a word beside its number.
-std::string word_of(const StudyRow& row) {
+std::string correlation_word(const StudyRow& row) {
   const bool is_correlation = row.statistic.starts_with("pearson_") || row.statistic.starts_with("point_biserial_") ||
                               row.statistic.starts_with("correlation_");
   return is_correlation ? word_of_correlation(row.value) : "";
@@ -66,7 +66,7 @@ void define_study(const std::string& path, const Scene& scene, const StudyOption
   std::vector<int> inside;
   for (const StudyRow& row : rows) inside.push_back(row.inside() ? (*row.inside() ? 1 : 0) : MISSING);
   file.integers("inside", {"row"}, "", "whether the paper's value is in the interval", inside, {{"outside", "inside"}, true});
-  texts("word", "the correlation in the paper's words", word_of);
+  texts("word", "the correlation in the paper's words", correlation_word);
   file.finish({});
 }
 

@@ -43,29 +43,29 @@ double worst_in(const TriedGrips& tried, std::size_t grip, const TrialGroup& gro
   double worst = NONE;
   for (std::size_t k = 0; k < tried.cases_of(grip).size(); ++k) {
     if (!is_of(group, tried.grips[grip], tried.cases_of(grip)[k])) continue;
-    const CasePrediction& said = tried.found[grip].prediction.cases[k];
-    worst = std::fmax(worst, of_tips ? said.leg_tips : said.leg_effort);
+    const CasePrediction& predicted = tried.found[grip].prediction.cases[k];
+    worst = std::fmax(worst, of_tips ? predicted.leg_tips : predicted.leg_effort);
   }
   return worst;
 }
 
 double value_of(const TriedGrips& tried, std::size_t grip, const TrialGroup& group, std::size_t predictor) {
-  const GripPrediction& said = tried.found[grip].prediction;
+  const GripPrediction& predicted = tried.found[grip].prediction;
   switch (predictor) {
     case BY_WORST_EFFORT:
       return -worst_in(tried, grip, group, false);
     case BY_SCENE_WORST_EFFORT:
-      return -said.scene_worst_effort;
+      return -predicted.scene_worst_effort;
     case BY_TIPS_EFFORT:
       return -worst_in(tried, grip, group, true);
     case BY_PUSH:
-      return said.push;
+      return predicted.push;
     case BY_FRICTION_NEEDED:
-      return -said.friction_needed;
+      return -predicted.friction_needed;
     case BY_EPSILON:
-      return said.epsilon;
+      return predicted.epsilon;
     default:
-      return said.score;
+      return predicted.score;
   }
 }
 
@@ -159,12 +159,12 @@ GroupEfforts efforts_of(const TriedGrips& tried, const TrialGroup& group) {
       const TrialOutcome& outcome = tried.found[g].outcomes[k];
       if (outcome.discarded)
         ++efforts.discarded;
-      else if (!is_telling(outcome))
+      else if (!is_conclusive(outcome))
         ++efforts.earlier;
       else
         trials.push_back({tried.found[g].prediction.cases[k].leg_effort, outcome.held});
     }
-  efforts.bins = calibration_of(trials);
+  efforts.bins = calibration_bins(trials);
   efforts.confusion = confusion_of(trials);
   return efforts;
 }
@@ -193,7 +193,7 @@ std::vector<Disagreement> find_disagreements(const TriedGrips& tried) {
     for (std::size_t k = 0; k < tried.cases_of(g).size(); ++k) {
       const TrialOutcome& outcome = tried.found[g].outcomes[k];
       const Disagreement one{g, k, tried.found[g].prediction.cases[k].leg_effort};
-      if (!is_telling(outcome) || outcome.held == (one.effort <= 1)) continue;
+      if (!is_conclusive(outcome) || outcome.held == (one.effort <= 1)) continue;
       auto& known = worst[outcome.held ? 1 : 0];
       if (!known || contradiction(one) > contradiction(*known)) known = one;
     }
@@ -234,7 +234,7 @@ SurelyHeld surely_held(const TriedGrips& tried, std::size_t vessel) {
     bool is_held = true, has_sure = false;
     for (std::size_t k = 0; k < tried.cases_of(g).size(); ++k) {
       const TrialOutcome& outcome = tried.found[g].outcomes[k];
-      const bool is_sure = is_of(best, tried.grips[g], tried.cases_of(g)[k]) && is_telling(outcome) &&
+      const bool is_sure = is_of(best, tried.grips[g], tried.cases_of(g)[k]) && is_conclusive(outcome) &&
                            tried.found[g].prediction.cases[k].leg_effort <= SURE_EFFORT;
       has_sure = has_sure || is_sure;
       is_held = is_held && (!is_sure || outcome.held);
@@ -305,12 +305,12 @@ std::optional<WeightTrial> weights_by_trials(const Scene& scene, const TriedGrip
                                              std::size_t placements) {
   std::vector<TermedGrip> grips;
   for (std::size_t g = 0; g < tried.grips.size(); ++g) {
-    const GripPrediction& said = tried.found[g].prediction;
+    const GripPrediction& predicted = tried.found[g].prediction;
     const GripFate fate = fate_of(tried, g, JUDGED);
-    if (fate.trials == 0 || !core_f64::effort_holds(said.scene_worst_effort)) continue;
-    if (placements == 0) grips.push_back({said.terms, fate.held && !fate.discarded, fate.discarded});
+    if (fate.trials == 0 || !core_f64::effort_holds(predicted.scene_worst_effort)) continue;
+    if (placements == 0) grips.push_back({predicted.terms, fate.held && !fate.discarded, fate.discarded});
     for (const Placement& one : tried.found[g].placements)
-      if (placements > 0) grips.push_back({said.terms, one.held, !one.is_possible || is_discarded(one.reason)});
+      if (placements > 0) grips.push_back({predicted.terms, one.held, !one.is_possible || is_discarded(one.reason)});
   }
   if (grips.empty()) return std::nullopt;
   return try_weights(grips, effective_weights(scene), seed, std::max<std::size_t>(placements, 1));
@@ -321,13 +321,13 @@ ScatterAnalysis analyse_scatter(const Scene& scene, const TriedGrips& tried, con
   analysis.rows = scatter_rows(scene, tried);
   for (const TrialSample sample : {TrialSample::stratified, TrialSample::best}) {
     ScatterPredictors row{sample, {}, {}};
-    std::array<std::vector<Prediction>, SCATTER_PREDICTORS> said;
+    std::array<std::vector<Prediction>, SCATTER_PREDICTORS> predicted;
     for (std::size_t k = 0; k < SCATTER_PREDICTORS; ++k) {
-      said[k] = scatter_predictions(tried, sample, k);
-      row.aucs[k] = auc_with_interval(said[k], options.seed);
+      predicted[k] = scatter_predictions(tried, sample, k);
+      row.aucs[k] = auc_with_interval(predicted[k], options.seed);
     }
-    row.robust_gain = auc_difference(said[BY_ROBUST_RANK], said[BY_OWN_SCORE], options.seed);
-    if (!said[0].empty()) analysis.predictors.push_back(row);
+    row.robust_gain = auc_difference(predicted[BY_ROBUST_RANK], predicted[BY_OWN_SCORE], options.seed);
+    if (!predicted[0].empty()) analysis.predictors.push_back(row);
   }
   analysis.weights = weights_by_trials(scene, tried, options.seed, options.scatter);
   return analysis;
@@ -358,9 +358,9 @@ std::vector<Prediction> predictions_of(const TriedGrips& tried, const TrialGroup
     }
     for (std::size_t k = 0; k < tried.cases_of(g).size(); ++k) {
       const TrialOutcome& outcome = tried.found[g].outcomes[k];
-      if (!is_of(group, tried.grips[g], tried.cases_of(g)[k]) || !is_telling(outcome)) continue;
-      const CasePrediction& said = tried.found[g].prediction.cases[k];
-      predictions.push_back({-(predictor == BY_LEG_EFFORT ? said.leg_effort : said.leg_tips), outcome.held, g});
+      if (!is_of(group, tried.grips[g], tried.cases_of(g)[k]) || !is_conclusive(outcome)) continue;
+      const CasePrediction& predicted = tried.found[g].prediction.cases[k];
+      predictions.push_back({-(predictor == BY_LEG_EFFORT ? predicted.leg_effort : predicted.leg_tips), outcome.held, g});
     }
   }
   return predictions;
@@ -375,9 +375,9 @@ std::vector<Prediction> scatter_predictions(const TriedGrips& tried, TrialSample
     const GripFinding& found = tried.found[g];
     if (tried.grips[g].sample != sample) continue;
     const auto rank = std::lower_bound(ranked.begin(), ranked.end(), std::pair(found.robust.low, found.robust.mean));
-    const std::array<double, SCATTER_PREDICTORS> said{found.prediction.score, static_cast<double>(rank - ranked.begin()),
-                                                      found.robust.share};
-    for (const Placement& one : found.placements) predictions.push_back({said[predictor], one.held, g});
+    const std::array<double, SCATTER_PREDICTORS> predicted{found.prediction.score, static_cast<double>(rank - ranked.begin()),
+                                                           found.robust.share};
+    for (const Placement& one : found.placements) predictions.push_back({predicted[predictor], one.held, g});
   }
   return predictions;
 }

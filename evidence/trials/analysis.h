@@ -73,7 +73,7 @@ extern const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES;
 constexpr bool is_by_trial(std::size_t predictor) { return predictor >= BY_LEG_EFFORT; }
 
 // A predictor's values for the grips of a group, or for its trials: larger is better. By grip, success is to hold in every trial,
-// and grips with a discarded trial are left out. By trial, only those that test their own state (is_telling) are there.
+// and grips with a discarded trial are left out. By trial, only those that test their own state (is_conclusive) are there.
 std::vector<Prediction> predictions_of(const TriedGrips& tried, const TrialGroup& group, std::size_t predictor);
 
 struct PredictorRow {

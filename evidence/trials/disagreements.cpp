@@ -42,7 +42,7 @@ std::vector<TrialTrack> draw_and_run(const TrialPredictor& predictor, const Tria
     draw_disagreement(predictor, grip, cases[place], shown);
     engine.run(grip.vessel, grip.grip, cases_up_to(cases, place), &tracks);
   } catch (const Error& error) {
-    shown.trouble = error.what();
+    shown.error = error.what();
   }
   return tracks;
 }
@@ -62,20 +62,20 @@ std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileS
     const std::string path = files.recording(all.size() + 1);
     const std::vector<TrialTrack> tracks = draw_and_run(predictor, engine, grip, tried.cases_of(which.grip), which.place, shown);
     try {
-      if (shown.trouble.empty()) {
-        write_trial_recording(set.on_the_way(path), scene, *predictor.core(), engine.name(), grip, one,
+      if (shown.error.empty()) {
+        write_trial_recording(set.temporary_path(path), scene, *predictor.core(), engine.name(), grip, one,
                               tried.found[which.grip].outcomes[which.place], tracks);
         shown.recording = TrialFiles::recording_name(all.size() + 1);
       }
     } catch (const Error& error) {
       // a full disk: with room --resume writes what the page would lack
       if (error.code == ExitCode::failure) throw;
-      shown.trouble = set.with_own_names(error.what());
+      shown.error = set.with_own_names(error.what());
     }
-    if (shown.recording.empty()) set.without(path);
+    if (shown.recording.empty()) set.remove_on_commit(path);
     all.push_back(shown);
   }
-  for (std::size_t number = all.size() + 1; number <= MOST_DISAGREEMENTS; ++number) set.without(files.recording(number));
+  for (std::size_t number = all.size() + 1; number <= MOST_DISAGREEMENTS; ++number) set.remove_on_commit(files.recording(number));
   return all;
 }
 

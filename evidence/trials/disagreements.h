@@ -18,7 +18,7 @@ struct ShownDisagreement {
   std::string drawing;    // SVG; empty: it cannot be drawn, and `trouble` says why
   std::string forces;     // what its arrows show; may be empty
   std::string recording;  // name of the file in the folder; empty: there is none, and `trouble` says why
-  std::string trouble;
+  std::string error;
 };
 
 // The cases that one run of the engine goes through up to one of a grip's: the smaller tilts of its fill, and itself.

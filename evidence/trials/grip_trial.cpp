@@ -73,7 +73,7 @@ BodyForm trial_form(const Scene& scene, std::size_t vessel) {
   std::vector<ConvexPiece> pieces = convex_pieces(scene.vessels.at(vessel));
   for (ConvexPiece& piece : pieces)
     for (Triple& p : piece.vertices) p = mirrored(p, scene.hand.handedness);
-  return form_of(pieces);
+  return body_form(pieces);
 }
 
 GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings,
@@ -105,13 +105,13 @@ GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Eva
   grasp_ = setup.grasp;
   try {
     body_.emplace(library, setup);
-  } catch (const EngineTrouble& trouble) {
-    trouble_ = trouble.what();
+  } catch (const EngineError& error) {
+    last_error_ = error.what();
   }
 }
 
 HeldBody& GripTrial::body() {
-  if (!body_) throw EngineTrouble(trouble_);
+  if (!body_) throw EngineError(last_error_);
   return *body_;
 }
 
@@ -162,7 +162,7 @@ TrialReason GripTrial::close(const State& state) {
     body_->step();
   }
   if (body_->deepest_overlap() > settings_.buried) return TrialReason::buried;
-  body_->rest_here();
+  body_->set_rest_pose();
   body_->anchor();
   body_->release();
   watched_ = to_vec3(state.load.center);
@@ -251,12 +251,12 @@ std::vector<TrialOutcome> GripTrial::tilt(double fill, const std::vector<double>
       if (ends) ends->push_back(track ? track->frames.size() : 0);
       if (!is_held && !outcome.discarded) outcome.reason = TrialReason::earlier;
     }
-  } catch (const EngineTrouble& trouble) {
+  } catch (const EngineError& error) {
     // the tilts that were held before stay held
     outcome.held = false;
     outcome.discarded = true;
     outcome.reason = TrialReason::diverged;
-    outcome.detail = trouble.what();
+    outcome.detail = error.what();
     outcomes.resize(tilts.size(), outcome);
     if (ends) ends->resize(tilts.size(), track ? track->frames.size() : 0);
   }
@@ -277,11 +277,11 @@ TrialOutcome GripTrial::push(double fill, int direction, const TrialMaterial& ma
     outcome.reason = close(state);
     outcome.discarded = outcome.reason != TrialReason::none;
     outcome.held = !outcome.discarded && watch(settings_.push_time, 0, outcome, track);
-  } catch (const EngineTrouble& trouble) {
+  } catch (const EngineError& error) {
     outcome = {};
     outcome.discarded = true;
     outcome.reason = TrialReason::diverged;
-    outcome.detail = trouble.what();
+    outcome.detail = error.what();
   }
   if (body_) body_->set_friction(friction_, torsion_);
   return outcome;

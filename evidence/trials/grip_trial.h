@@ -45,7 +45,7 @@ class GripTrial {
   void act(const State& state);
   void act_between(const State& a, const State& b, double share, double tilt, bool with_load);
   core_f64::Vec3 up_at(double tilt) const;
-  HeldBody& body();  // throws EngineTrouble where there is none
+  HeldBody& body();  // throws EngineError where there is none
   // Closes the hand on the pinned vessel and lets go. What is wrong with the start, if anything.
   TrialReason close(const State& state);
   // Goes on for a time; false once the vessel is lost, which `outcome` then has.
@@ -64,7 +64,7 @@ class GripTrial {
   GraspModel grasp_;
   VesselLoad vessel_load_;
   std::optional<HeldBody> body_;
-  std::string trouble_;  // why there is none
+  std::string last_error_;  // why there is none
   bool is_articulated_ = true;
   core_f64::Vec3 watched_{};  // a place of the vessel: its center of mass at the release
   long steps_ = 0;

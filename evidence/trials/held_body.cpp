@@ -31,7 +31,7 @@ std::string pair_text(const HeldSetup& setup, std::size_t hand, std::size_t body
 
 }  // namespace
 
-BodyForm form_of(std::span<const ConvexPiece> pieces) {
+BodyForm body_form(std::span<const ConvexPiece> pieces) {
   BodyForm form;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const ConvexPiece& piece = pieces[k];
@@ -145,7 +145,7 @@ void HeldBody::set_friction(double friction, double torsion) {
   }
 }
 
-void HeldBody::rest_here() {
+void HeldBody::set_rest_pose() {
   for (std::size_t j = 0; j < joints_.size(); ++j) rest_[j] = simulation_.data().qpos[first_qpos_ + static_cast<int>(j)];
 }
 
@@ -190,7 +190,7 @@ double HeldBody::largest_step() {
 // The engine first asks whether the balls about two geoms meet, with a margin: with one that takes away both radii they never do.
 // Places are those of the beginning of the last step, so that what came nearer in it counts. Where that is too much, and before the
 // first step, no pair is left out.
-void HeldBody::look_at_near_pairs() {
+void HeldBody::collide_near_pairs() {
   mjModel& m = simulation_.model();
   steps_ = 0;
   nearer_ = last_step_;
@@ -206,7 +206,7 @@ void HeldBody::look_at_near_pairs() {
 
 void HeldBody::step() {
   mjData& d = simulation_.data();
-  if (distance_ && (steps_ >= NEAR_STEPS || nearer_ >= SURE)) look_at_near_pairs();
+  if (distance_ && (steps_ >= NEAR_STEPS || nearer_ >= SURE)) collide_near_pairs();
   std::array<double, core_f64::DIGITS> sum{};
   std::vector<double> torques(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {

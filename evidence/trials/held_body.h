@@ -29,7 +29,7 @@ struct BodyForm {
   std::vector<std::string> names;
   std::vector<std::array<Triple, 2>> boxes;  // low and high corner of each, in the body's frame, m; none: not known
 };
-BodyForm form_of(std::span<const ConvexPiece> pieces);
+BodyForm body_form(std::span<const ConvexPiece> pieces);
 
 // What a model is made of. The body's frame is the model's.
 struct HeldSetup {
@@ -67,7 +67,7 @@ class HeldBody {
   // Torques of the joints, or forces of the slides, beside what their springs do.
   void drive(std::span<const double> drives) { drives_.assign(drives.begin(), drives.end()); }
   // The springs of the joints rest where they are now.
-  void rest_here();
+  void set_rest_pose();
   void release();
   void step();
 
@@ -91,7 +91,7 @@ class HeldBody {
     core_f64::Vec3 on_bone{}, on_body{}, normal{};  // each in its frame; the normal in the body's
   };
   core_f64::Vec3 point_of(int body, const core_f64::Vec3& local);
-  void look_at_near_pairs();
+  void collide_near_pairs();
   double largest_step();
   bool is_near(int geom, const std::array<Triple, 2>* box);
 

@@ -33,7 +33,7 @@ std::string engine_words(std::string text) {
 
 // MuJoCo's error handler must not return. Its library has tables for unwinding, so that an exception leaves it; the state that it
 // then leaves behind is thrown away.
-void on_engine_error(const char* words) { throw EngineTrouble(engine_words(words)); }
+void on_engine_error(const char* words) { throw EngineError(engine_words(words)); }
 void on_engine_warning(const char* words) { last_warning = engine_words(words); }
 
 template <class Function>
@@ -95,7 +95,7 @@ class ModelFile {
   ModelFile(const MujocoLibrary& library, const std::string& text) : library_(library), files_(std::make_unique<mjVFS>()) {
     library_.default_vfs(files_.get());
     if (library_.make_empty_file_vfs(files_.get(), NAME, static_cast<int>(text.size())) != 0)
-      throw EngineTrouble("no room for the text of a model");
+      throw EngineError("no room for the text of a model");
     std::memcpy(files_->filedata[library_.find_file_vfs(files_.get(), NAME)], text.data(), text.size());
   }
   ~ModelFile() { library_.delete_vfs(files_.get()); }
@@ -120,7 +120,7 @@ mjModel* compiled_model(const MujocoLibrary& library, const std::string& xml) {
   // a model that it warns of comes with words too
   if (!model || words[0] != '\0') {
     if (model) library.delete_model(model);
-    throw EngineTrouble(engine_words(words.data()));
+    throw EngineError(engine_words(words.data()));
   }
   return model;
 }
@@ -142,21 +142,21 @@ Simulation::Simulation(const MujocoLibrary& library, const std::string& xml)
       model_(compiled_model(library, xml), library.delete_model),
       data_(library.make_data(model_.get()), library.delete_data),
       scratch_(library.make_data(model_.get()), library.delete_data) {
-  if (!data_ || !scratch_) throw EngineTrouble("no memory for the state of a model");
+  if (!data_ || !scratch_) throw EngineError("no memory for the state of a model");
 }
 
 void Simulation::check_warnings(const mjData& data) {
   for (int kind = 0; kind < mjNWARNING; ++kind)
-    if (data.warning[kind].number > 0) throw EngineTrouble(last_warning.empty() ? fmt::format("warning {}", kind) : last_warning);
+    if (data.warning[kind].number > 0) throw EngineError(last_warning.empty() ? fmt::format("warning {}", kind) : last_warning);
 }
 
 void Simulation::check() const {
   check_warnings(*data_);
   // it checks for itself whether what it integrates is a number, but not what follows from the last step
   for (int i = 0; i < model_->nq; ++i)
-    if (!std::isfinite(data_->qpos[i])) throw EngineTrouble(fmt::format("position {} is no number", i));
+    if (!std::isfinite(data_->qpos[i])) throw EngineError(fmt::format("position {} is no number", i));
   for (int i = 0; i < model_->nv; ++i)
-    if (!std::isfinite(data_->qvel[i])) throw EngineTrouble(fmt::format("velocity {} is no number", i));
+    if (!std::isfinite(data_->qvel[i])) throw EngineError(fmt::format("velocity {} is no number", i));
 }
 
 void Simulation::step() {

@@ -13,7 +13,7 @@ namespace wholehand {
 extern const std::string MUJOCO_LIBRARY_NAME;  // "libmujoco.so.2.2.2": the release whose headers this is compiled with
 
 // What the engine itself finds wrong: an error that would have ended the process, a warning, a number that is none. One line.
-class EngineTrouble : public std::runtime_error {
+class EngineError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -52,14 +52,14 @@ const MujocoLibrary& load_mujoco(const std::string& path = "");
 class Simulation {
  public:
   // Compiles a model from its XML text. mj_loadXML keeps a global last model, so one thread at a time is let in. Throws
-  // EngineTrouble where it takes none, or warns of the one that it took.
+  // EngineError where it takes none, or warns of the one that it took.
   Simulation(const MujocoLibrary& library, const std::string& xml);
 
   mjModel& model() { return *model_; }
   mjData& data() { return *data_; }
   const MujocoLibrary& library() const { return library_; }
 
-  // One time step, or all that depends on the present state without one. Throws EngineTrouble where the engine does, warns of
+  // One time step, or all that depends on the present state without one. Throws EngineError where the engine does, warns of
   // anything or has a number that is none: what it then holds is of no use until `reset`.
   void step();
   void forward();

@@ -46,9 +46,9 @@ void prepare_trials_folder(const std::string& folder) {
 
 void remove_unfinished(const TrialFiles& files) {
   for (const std::string& path : {files.csv, files.nc, files.page, files.journal})
-    std::remove(FileSet::name_on_the_way(path).c_str());
+    std::remove(FileSet::temporary_name(path).c_str());
   for (std::size_t k = 1; k <= MOST_DISAGREEMENTS; ++k) {
-    const std::string name = FileSet::name_on_the_way(files.recording(k));
+    const std::string name = FileSet::temporary_name(files.recording(k));
     std::remove(name.c_str());
     std::remove((name + ".partial").c_str());  // a recording's own name on the way
   }

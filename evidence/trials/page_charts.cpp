@@ -202,7 +202,7 @@ void write_disagreement(MarkupWriter& html, const TrialPageSource& source, const
   html.open("p").element("strong", fmt::format("{}: effort of the way {}. ", number, effort)).text(words + ". ");
   html.text(outcome_text(one, found.outcomes[shown.which.place])).close();
   if (shown.recording.empty()) {
-    html.element("p", fmt::format("There is no recording: {}.", shown.trouble));
+    html.element("p", fmt::format("There is no recording: {}.", shown.error));
   } else {
     html.open("p").element("a", shown.recording, {{"href", shown.recording}});
     html.text(", played by ").element("code", "wholehand view " + shown.recording).close();

@@ -133,17 +133,17 @@ class Trials {
             fmt::format("{}: other trials are complete there, or of another build; leave --resume out to replace them, or "
                         "name another folder with -o",
                         options_.folder));
-      say_note(options_.folder + ": no interrupted trials are there: starting from the first grip");
+      print_note(options_.folder + ": no interrupted trials are there: starting from the first grip");
     }
     TrialJournal::Found found;
     const auto journal = open_journal(files, identity, found);
-    say_trials_opening();
+    print_trials_header();
     const std::size_t done = try_all(*journal, found, interrupt);
     if (done < tried_.grips.size()) return interrupted(done, true);
     tried_.found.clear();
     for (std::size_t g = 0; g < tried_.grips.size(); ++g) tried_.found.push_back(std::move(found.at(g)));
     if (!write_files(files, identity, interrupt.flag())) {
-      say_note("interrupted before the files were written; go on with --resume");
+      print_note("interrupted before the files were written; go on with --resume");
       return ExitCode::interrupted;
     }
     std::remove(files.journal.c_str());
@@ -202,7 +202,7 @@ class Trials {
   std::unique_ptr<TrialJournal> open_journal(const TrialFiles& files, const TrialIdentity& identity, TrialJournal::Found& found) {
     const bool is_there = begins_with(files.journal, JOURNAL_START);
     if (!options_.resume || !is_there) {
-      if (is_there) say_note(files.journal + ": the interrupted trials are begun again; --resume would go on with them");
+      if (is_there) print_note(files.journal + ": the interrupted trials are begun again; --resume would go on with them");
       return std::make_unique<TrialJournal>(files.journal, identity);
     }
     std::vector<std::size_t> counts;
@@ -210,14 +210,14 @@ class Trials {
     std::size_t damaged = 0;
     auto journal = std::make_unique<TrialJournal>(files.journal, identity, counts, found, damaged);
     if (damaged > 0)
-      say_note(fmt::format("{}: {} not as {} written; {} tried again", files.journal,
-                           counted(damaged, "line") + (damaged == 1 ? " is" : " are"), damaged == 1 ? "it was" : "they were",
-                           damaged == 1 ? "its grip is" : "their grips are"));
-    say_note(fmt::format("goes on after {} of {}", found.size(), counted(tried_.grips.size(), "grip")));
+      print_note(fmt::format("{}: {} not as {} written; {} tried again", files.journal,
+                             counted(damaged, "line") + (damaged == 1 ? " is" : " are"), damaged == 1 ? "it was" : "they were",
+                             damaged == 1 ? "its grip is" : "their grips are"));
+    print_note(fmt::format("goes on after {} of {}", found.size(), counted(tried_.grips.size(), "grip")));
     return journal;
   }
 
-  void say_trials_opening() const {
+  void print_trials_header() const {
     std::size_t trials = 0;
     for (std::size_t g = 0; g < tried_.grips.size(); ++g) trials += tried_.cases_of(g).size();
     print(fmt::format(
@@ -273,9 +273,9 @@ class Trials {
   }
 
   ExitCode interrupted(std::size_t done, bool has_journal) const {
-    say_note(has_journal
-                 ? fmt::format("interrupted after {} of {}; go on with --resume", done, counted(tried_.grips.size(), "grip"))
-                 : std::string("interrupted before the first grip"));
+    print_note(has_journal
+                   ? fmt::format("interrupted after {} of {}; go on with --resume", done, counted(tried_.grips.size(), "grip"))
+                   : std::string("interrupted before the first grip"));
     return ExitCode::interrupted;
   }
 
@@ -289,12 +289,12 @@ class Trials {
       // the table gets its name first: beside it a folder's trials.nc is known as ours
       set.write(files.csv, trials_csv(scene_, options_.settings, tried_), TRIALS_REMEDY);
       const TrialOrigin origin{engine_->name(), identity_text(identity)};
-      write_trials_dataset(set.on_the_way(files.nc), scene_, options_, tried_, origin);
+      write_trials_dataset(set.temporary_path(files.nc), scene_, options_, tried_, origin);
       shown = show_disagreements(files, set, scene_, predictor_, *engine_, tried_, analysis, stop);
       if (stop) return false;
       const TrialPageSource source{scene_, options_, tried_, analysis, shown, origin.engine, origin.identity};
       set.write(files.page, trials_page(source), TRIALS_REMEDY);
-      set.give_names(TRIALS_REMEDY);
+      set.commit(TRIALS_REMEDY);
     } catch (const Error& error) {
       throw Error(error.code, set.with_own_names(error.what()), error.remedy);
     }

@@ -52,8 +52,8 @@ std::vector<Candidate> listed_best(const SweepResult& result, const Plan& plan, 
     all.insert(all.end(), list.begin(), list.end());
   }
   if (fewest < count)
-    say_note(fmt::format("of vessel {} the result lists {}, and --best asks for {}; `wholehand sweep --best` lists more",
-                         vessel + 1, counted(all.size(), "grip"), count * plan.hand_scales()));
+    print_note(fmt::format("of vessel {} the result lists {}, and --best asks for {}; `wholehand sweep --best` lists more",
+                           vessel + 1, counted(all.size(), "grip"), count * plan.hand_scales()));
   return all;
 }
 
@@ -237,8 +237,8 @@ std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, cons
   if (stop) return {};
   const std::size_t impossible = source.result ? remove_impossible(*source.core, grips) : 0;
   if (impossible > 0)
-    say_note(fmt::format("{} of the result {} not feasible and plausible in double precision, and {} left out",
-                         counted(impossible, "chosen grip"), impossible == 1 ? "is" : "are", impossible == 1 ? "is" : "are"));
+    print_note(fmt::format("{} of the result {} not feasible and plausible in double precision, and {} left out",
+                           counted(impossible, "chosen grip"), impossible == 1 ? "is" : "are", impossible == 1 ? "is" : "are"));
   if (grips.empty())
     throw usage_error("no grip is feasible and plausible, so there is nothing to try; `wholehand sweep` tells why");
   return grips;

@@ -110,7 +110,7 @@ AucDifference auc_difference(std::span<const Prediction> a, std::span<const Pred
   return answer;
 }
 
-std::vector<CalibrationBin> calibration_of(std::span<const EffortTrial> trials) {
+std::vector<CalibrationBin> calibration_bins(std::span<const EffortTrial> trials) {
   std::vector<CalibrationBin> bins;
   for (std::size_t k = 0; k < std::size(EFFORT_EDGES); ++k) {
     const bool is_last = k + 1 == std::size(EFFORT_EDGES);

@@ -65,7 +65,7 @@ struct CalibrationBin {
   double mean = 0;  // effort of the finite ones; NaN without any
   Share held;
 };
-std::vector<CalibrationBin> calibration_of(std::span<const EffortTrial> trials);
+std::vector<CalibrationBin> calibration_bins(std::span<const EffortTrial> trials);
 
 // Outcomes of trials against the prediction that effort <= 1 holds.
 struct Confusion {

@@ -28,7 +28,7 @@ struct TriedGrips {
 };
 
 // A trial that tests its own state: it was not discarded, and its state was reached, not lost at a smaller tilt.
-inline bool is_telling(const TrialOutcome& outcome) { return !outcome.discarded && outcome.reason != TrialReason::earlier; }
+inline bool is_conclusive(const TrialOutcome& outcome) { return !outcome.discarded && outcome.reason != TrialReason::earlier; }
 
 // Whether a contact slid farther than it may in a firm grip. A vessel may be held all the same.
 inline bool has_slipped(const TrialOutcome& outcome, const TrialSettings& settings) {

@@ -161,7 +161,7 @@ class Wholehand {
     wh_session_output output;
     WH_INIT(&output);
     check(wh_session_step(session_, &measurement, &output));
-    return told(output, measurement.tick);
+    return output_values(output, measurement.tick);
   }
 
   // The whole hand of the last step, in the world.
@@ -203,7 +203,7 @@ class Wholehand {
     wh_session_output output;
     wh_hand hand;
     std::int64_t tick = 0;
-    return newest(output, hand, tick) ? told(output, tick) : values::nil();
+    return newest(output, hand, tick) ? output_values(output, tick) : values::nil();
   }
 
   Variant session_stop(const Arguments&) {
@@ -262,7 +262,7 @@ class Wholehand {
     return measurement;
   }
 
-  static Variant told(const wh_session_output& out, std::int64_t tick) {
+  static Variant output_values(const wh_session_output& out, std::int64_t tick) {
     static const char* const names[] = {"free", "touching", "lift", "tilt", "maintain", "slipped", "released", "let go"};
     // a later library may know more states
     const auto state = static_cast<std::size_t>(out.state);

@@ -148,7 +148,7 @@ std::optional<Error> take_error(PacketReader& packet, int rank) {
 void share_error(Team& team, const std::optional<Error>& known) {
   const ExitCode code = share_value(team, known ? known->code : ExitCode::done);
   if (code == ExitCode::done) return;
-  team.say_agreed();
+  team.mark_agreed();
   if (team.is_leader()) throw *known;
   throw Error(code, "");
 }
@@ -172,7 +172,7 @@ ExitCode or_abort(Team& team, const std::function<ExitCode()>& work) {
     return work();
   } catch (const std::exception& error) {
     if (team.is_agreed()) throw;
-    say_note(fmt::format("rank {} on {}: {}", team.rank(), team.node(), error.what()));
+    print_note(fmt::format("rank {} on {}: {}", team.rank(), team.node(), error.what()));
     team.abort(ExitCode::failure);
   }
 }
@@ -197,19 +197,19 @@ class ClusterSweep final : public Sweep {
     InterruptGuard& interrupt = interrupt_;
     std::signal(SIGXFSZ, SIG_IGN);
     std::optional<OutputLock> lock;
-    bool is_complete = false;
+    bool is_already_done = false;
     agree([&] {
       check_shard_name();
       if (!team_.is_leader()) return;
-      is_complete = is_finished();
-      if (is_complete) return;
+      is_already_done = is_already_complete();
+      if (is_already_done) return;
       check();
       lock.emplace(names_.lock);
-      is_complete = is_finished();  // by who had the lock until now
+      is_already_done = is_already_complete();  // by who had the lock until now
     });
-    if (share_flag(is_complete)) {
+    if (share_flag(is_already_done)) {
       agree([&] {
-        if (team_.is_leader()) finished();
+        if (team_.is_leader()) report_already_complete();
       });
       return ExitCode::done;
     }
@@ -217,10 +217,11 @@ class ClusterSweep final : public Sweep {
     compare_ranks();
     check_lost_mark();
     if (!all_of(!interrupt.signalled())) {
-      if (team_.is_leader()) say_note("interrupted before the first grip; no file has changed, and the same command starts again");
+      if (team_.is_leader())
+        print_note("interrupted before the first grip; no file has changed, and the same command starts again");
       return ExitCode::interrupted;
     }
-    if (team_.is_leader()) say_opening();
+    if (team_.is_leader()) print_header();
     const ResultContents written = contents();
     std::unique_ptr<ResultFile> file;
     bool is_resumed = false;
@@ -246,7 +247,7 @@ class ClusterSweep final : public Sweep {
       is_there = is_marked_ && is_shard(own_names.partial, shard_id_);
       if (is_there) return;
       if (begins_with(own_names.partial, SHARD_START))
-        say_notes({own_names.partial + " is a shard of another sweep: replacing it"});
+        note_as_rank({own_names.partial + " is a shard of another sweep: replacing it"});
       make_shard(own_names.partial, shard_id_, layout_);
     });
     share_stretches(is_there);
@@ -258,7 +259,7 @@ class ClusterSweep final : public Sweep {
     });
     compare_files(*file);
     set_lists();
-    if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (is_choosy() && !choose(*file, interrupt)) ||
+    if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (needs_distinct_grips() && !choose(*file, interrupt)) ||
         !read_back(*file, interrupt))
       return team_.is_leader() ? interrupted() : ExitCode::interrupted;
     if (!team_.is_leader()) file.reset();
@@ -273,13 +274,13 @@ class ClusterSweep final : public Sweep {
       agree([&] {
         if (!team_.is_leader()) return;
         if (!is_completed) return save(*file);
-        finish(*file, best);
-        say_ranks();
-        say_shards();
+        publish(*file, best);
+        print_ranks();
+        print_shards();
       });
     };
     if (team_.is_leader()) {
-      end(*file, ending);
+      save_on_failure(*file, ending);
     } else {
       ending();
     }
@@ -347,7 +348,7 @@ class ClusterSweep final : public Sweep {
     info_.driver = identified_.driver = reader.take_text();
     identified_.device = reader.take_text();
     if (team_.is_leader() && devices.size() > 1 && info_.backend != "core")
-      say_note("the ranks have different devices: the last bits of a value depend on who computed it");
+      print_note("the ranks have different devices: the last bits of a value depend on who computed it");
   }
 
   // ---- files: one for all ranks, or one for each node ----
@@ -486,7 +487,7 @@ class ClusterSweep final : public Sweep {
 
   std::string shard_of(std::uint64_t group) const { return group == 0 ? "" : groups_[group].name; }
 
-  void say_missing_shards() const {
+  void note_missing_shards() const {
     std::uint64_t grips = 0;
     std::set<std::string> names;
     for (const VesselProgress& vessel : mark_.vessels) {
@@ -497,8 +498,8 @@ class ClusterSweep final : public Sweep {
       }
     }
     if (grips == 0) return;
-    say_note(fmt::format("no rank has the shard{} {}: computing {} again", names.size() > 1 ? "s" : "", joined(names, ", "),
-                         counted(grips, "grip")));
+    print_note(fmt::format("no rank has the shard{} {}: computing {} again", names.size() > 1 ? "s" : "", joined(names, ", "),
+                           counted(grips, "grip")));
   }
 
   // The stretches of the leader's mark that no shard has, by the rank that computes them again, in its order. Marks them as lost.
@@ -570,12 +571,12 @@ class ClusterSweep final : public Sweep {
     eligible_.resize(vessels);
     pending_.resize(vessels);
     while (maps_.size() < vessels) maps_.emplace_back(plan());
-    for (const HeatMap& map : maps_) told_.push_back(map.scores());
+    for (const HeatMap& map : maps_) reported_cells_.push_back(map.scores());
     for (const VesselProgress& vessel : mark_.vessels) {
       best_.emplace_back(plan(), kept_best(), vessel.best);
       fresh_.emplace_back(std::in_place, plan(), kept_best(), std::vector<Candidate>());
     }
-    has_eligible_ = is_choosy() && done() == 0;
+    has_eligible_ = needs_distinct_grips() && done() == 0;
     reported_ = done();
   }
 
@@ -591,7 +592,7 @@ class ClusterSweep final : public Sweep {
   bool repair_stretches(ResultFile& file, InterruptGuard& interrupt) {
     std::vector<std::vector<Stretch*>> lost;
     if (team_.is_leader()) {
-      say_missing_shards();
+      note_missing_shards();
       lost = lost_stretches();
     }
     const bool has_lost =
@@ -752,7 +753,7 @@ class ClusterSweep final : public Sweep {
     if (!team_.is_leader()) {
       // what is not on the disk is not reported
       if (failure && caught([&] { file.sync(); })) pieces_.clear();
-      tell(true, failure);
+      report_to_leader(true, failure);
     } else {
       if (failure) failure_ = failure;
       while (ended_ + 1 < team_.size()) {
@@ -791,7 +792,7 @@ class ClusterSweep final : public Sweep {
           eligible.clear();
           add_eligible(chunk, backend_->fields(), eligible);
           offer(range.vessel, eligible);
-          remember(range.vessel, eligible);
+          cache_scores(range.vessel, eligible);
         }
         if (has_heat_map()) maps_[range.vessel].add(plan(), chunk, backend_->fields());
         delivered += chunk.count;
@@ -811,7 +812,7 @@ class ClusterSweep final : public Sweep {
       count_kernels(result.kernel_seconds, since(start) - sink_seconds);
       own_.seconds += since(start);
       own_.grips += result.done;
-      say_notes(result.notes);
+      note_as_rank(result.notes);
       first += result.done;
       piece.last = first;
       if (file.has_grips() && result.done > 0) {
@@ -825,7 +826,7 @@ class ClusterSweep final : public Sweep {
           keep_mark(file);
         } else {
           file.sync();
-          tell(false, std::nullopt);
+          report_to_leader(false, std::nullopt);
         }
         last_report_ = monotonic_now();
       }
@@ -837,7 +838,7 @@ class ClusterSweep final : public Sweep {
   void count_kernels(double kernels, double waited) {
     kernel_seconds_ += kernels;
     wait_seconds_ += waited;
-    (team_.is_leader() ? mark_.kernel_seconds : untold_kernel_seconds_) += kernels;
+    (team_.is_leader() ? mark_.kernel_seconds : unreported_kernel_seconds_) += kernels;
   }
 
   void offer(std::size_t vessel, const std::vector<Candidate>& grips) {
@@ -849,10 +850,10 @@ class ClusterSweep final : public Sweep {
   }
 
   // Up to a bound: then passes compute their grips again.
-  void remember(std::size_t vessel, const std::vector<Candidate>& eligible) {
+  void cache_scores(std::size_t vessel, const std::vector<Candidate>& eligible) {
     if (!has_eligible_) return;
     eligible_count_ += eligible.size();
-    has_eligible_ = eligible_count_ * sizeof(Candidate) <= options_.remembered * sizeof(double);
+    has_eligible_ = eligible_count_ * sizeof(Candidate) <= options_.cached_scores * sizeof(double);
     if (has_eligible_) {
       eligible_[vessel].insert(eligible_[vessel].end(), eligible.begin(), eligible.end());
     } else {
@@ -860,11 +861,13 @@ class ClusterSweep final : public Sweep {
     }
   }
 
-  std::string who() const override { return team_.size() > 1 ? fmt::format("rank {} on {}: ", team_.rank(), team_.node()) : ""; }
+  std::string rank_prefix() const override {
+    return team_.size() > 1 ? fmt::format("rank {} on {}: ", team_.rank(), team_.node()) : "";
+  }
 
-  void say_notes(std::vector<std::string> notes) {
-    for (std::string& line : notes) line = who() + line;
-    say_once(notes, progress_ ? &*progress_ : nullptr);
+  void note_as_rank(std::vector<std::string> notes) {
+    for (std::string& line : notes) line = rank_prefix() + line;
+    note_once(notes, progress_ ? &*progress_ : nullptr);
   }
 
   // ---- reports to the leader ----
@@ -895,23 +898,23 @@ class ClusterSweep final : public Sweep {
   }
 
   // Everything since the last report; what it names is on the disk.
-  void tell(bool is_last, const std::optional<Error>& failure) {
+  void report_to_leader(bool is_last, const std::optional<Error>& failure) {
     PacketWriter packet;
     packet.put(is_last);
     put_error(packet, team_, failure);
     packet.put(has_eligible_);
     packet.put(own_);
-    packet.put(std::exchange(untold_kernel_seconds_, 0));
+    packet.put(std::exchange(unreported_kernel_seconds_, 0));
     packet.put(std::exchange(pieces_, {}));
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
       packet.put(fresh_[v]->all());
       fresh_[v].emplace(plan(), kept_best(), std::vector<Candidate>());
       std::vector<Cell> cells;
-      for (std::size_t k = 0; has_heat_map() && k < told_[v].size(); ++k) {
+      for (std::size_t k = 0; has_heat_map() && k < reported_cells_[v].size(); ++k) {
         const double now = maps_[v].scores()[k];
-        if (std::isnan(now) || now == told_[v][k]) continue;
+        if (std::isnan(now) || now == reported_cells_[v][k]) continue;
         cells.push_back({k, now});
-        told_[v][k] = now;
+        reported_cells_[v][k] = now;
       }
       packet.put(cells);
     }
@@ -963,11 +966,11 @@ class ClusterSweep final : public Sweep {
     return text;
   }
 
-  void say_ranks() const {
+  void print_ranks() const {
     if (team_.size() > 1) print(fmt::format("{} ranks: {}\n", team_.size(), rate_text()));
   }
 
-  void say_shards() const {
+  void print_shards() const {
     if (!has_shards()) return;
     std::set<std::string> files;
     for (const VesselProgress& vessel : mark_.vessels)
@@ -1044,7 +1047,7 @@ class ClusterSweep final : public Sweep {
       packet.put(grips);
       team_.share(packet.bytes());
     };
-    end_pass(chooser, vessel, [&](const std::vector<Candidate>& grips) {
+    choose_from_pass(chooser, vessel, [&](const std::vector<Candidate>& grips) {
       ask(grips);
       ListChooser::Hands hands(grips.size());
       const ListChooser::Hands own = chooser.hands_of(own_part(grips, 0));
@@ -1120,7 +1123,7 @@ class ClusterSweep final : public Sweep {
     const double start = monotonic_now();
     const RunResult result = backend_->run(request);
     count_kernels(result.kernel_seconds, since(start));
-    say_notes(result.notes);
+    note_as_rank(result.notes);
     return result.done;
   }
 
@@ -1151,7 +1154,7 @@ class ClusterSweep final : public Sweep {
       for (const Candidate& candidate : grips) own[list].push_back(bare_grip(plan(), list / plan().hand_scales(), candidate));
     }
     bool is_whole = true;
-    agree([&] { is_whole = complete(own, interrupt); });
+    agree([&] { is_whole = choose_best(own, interrupt); });
     std::vector<CompletedGrip> completed;
     for (std::size_t list = 0; list < own.size(); ++list)
       for (const BestGrip& grip : own[list])
@@ -1188,11 +1191,11 @@ class ClusterSweep final : public Sweep {
   std::vector<std::optional<HandLists>> fresh_;   // and since the last report
   std::vector<std::vector<Candidate>> eligible_;  // of each vessel, of this rank's grips
   std::size_t eligible_count_ = 0;
-  bool has_eligible_ = false;              // all of them
-  std::vector<std::vector<double>> told_;  // cells of the heat maps that the leader knows
-  std::vector<Piece> pieces_;              // since the last report
-  std::vector<OwnStretch> written_;        // by this rank
-  double untold_kernel_seconds_ = 0;
+  bool has_eligible_ = false;                        // all of them
+  std::vector<std::vector<double>> reported_cells_;  // cells of the heat maps that the leader knows
+  std::vector<Piece> pieces_;                        // since the last report
+  std::vector<OwnStretch> written_;                  // by this rank
+  double unreported_kernel_seconds_ = 0;
   std::vector<Group> groups_;
   std::vector<std::size_t> group_of_;  // of each rank
   std::string shard_id_;               // of the sweep; empty where all write into one file

@@ -48,7 +48,7 @@ class Team {
   static double nap(double waited = 0);
 
   // Whether all ranks know that they end with an error.
-  void say_agreed() { is_agreed_ = true; }
+  void mark_agreed() { is_agreed_ = true; }
   bool is_agreed() const { return is_agreed_; }
   // Ends the job, in MPI's way.
   [[noreturn]] static void abort(ExitCode code);

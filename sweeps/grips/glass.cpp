@@ -117,7 +117,7 @@ bool DrawnGlass::mesh_covers(const DrawnView& view, const Triple& a, const Tripl
   for (int k = 0; k < BONE_SAMPLES; ++k) {
     const double t = (k + 0.5) / BONE_SAMPLES;
     const Triple p = point_between(a, b, t);
-    const double cover = view.mesh->cover_of(p);
+    const double cover = view.mesh->cover_at(p);
     if (cover != DepthMap::NOTHING) behind += cover > 0 ? 1 : -1;
     depth += view.depth(p) / BONE_SAMPLES;
   }

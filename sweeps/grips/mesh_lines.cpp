@@ -192,7 +192,7 @@ Triple MeshView::seen(const Triple& p) const { return {dot(right_, p), dot(up_, 
 
 bool MeshView::faces_viewer(std::uint32_t triangle) const { return dot(edges_.normals[triangle], toward_) > EDGE_ON; }
 
-double MeshView::cover_of(const Triple& p) const {
+double MeshView::cover_at(const Triple& p) const {
   const Triple at = seen(p);
   const double nearest = depths_.nearest_at({at[0], at[1]});
   return nearest == DepthMap::NOTHING ? nearest : nearest - at[2];

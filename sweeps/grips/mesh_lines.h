@@ -27,7 +27,7 @@ class MeshView {
   MeshLines lines() const;
   // How much of the mesh's nearest surface lies in front of p, m: negative where p is in front of it; DepthMap::NOTHING where the mesh is
   // not behind or before p at all.
-  double cover_of(const Triple& p) const;
+  double cover_at(const Triple& p) const;
 
  private:
   Triple seen(const Triple& p) const;

@@ -69,18 +69,18 @@ struct GripPlanes {
   double real(int field, std::size_t k = 0) const { return reals[fields.plane[field] + k]; }
 };
 
-// The efforts over the scene's states, from the grip's planes by `told(field)`. Nothing for an implausible grip.
-template <class Told>
-std::optional<GripHold> hold_of(const Scene& scene, std::size_t vessel, const Told& told) {
-  if (!has_effort(scene) || std::isnan(told(FIELD_WORST_EFFORT))) return std::nullopt;
+// The efforts over the scene's states, from the grip's planes by `value(field)`. Nothing for an implausible grip.
+template <class FieldValue>
+std::optional<GripHold> hold_of(const Scene& scene, std::size_t vessel, const FieldValue& value) {
+  if (!has_effort(scene) || std::isnan(value(FIELD_WORST_EFFORT))) return std::nullopt;
   const StateAxes own = scene_axes(scene, vessel);
   GripHold hold;
-  hold.worst = told(FIELD_WORST_EFFORT);
-  hold.worst_fill = nearest_value(own.fills, told(FIELD_WORST_EFFORT_FILL));
-  hold.worst_tilt = nearest_value(own.tilts, told(FIELD_WORST_EFFORT_TILT));
-  hold.tips_worst = told(FIELD_TIPS_WORST_EFFORT);
-  hold.push = told(FIELD_PUSH);
-  hold.friction_needed = told(FIELD_FRICTION_NEEDED);
+  hold.worst = value(FIELD_WORST_EFFORT);
+  hold.worst_fill = nearest_value(own.fills, value(FIELD_WORST_EFFORT_FILL));
+  hold.worst_tilt = nearest_value(own.tilts, value(FIELD_WORST_EFFORT_TILT));
+  hold.tips_worst = value(FIELD_TIPS_WORST_EFFORT);
+  hold.push = value(FIELD_PUSH);
+  hold.friction_needed = value(FIELD_FRICTION_NEEDED);
   return hold;
 }
 

@@ -30,8 +30,8 @@ std::vector<std::string> cavity_notes(const Scene& scene) {
   return notes;
 }
 
-void say_cavity_notes(const Scene& scene) {
-  for (const std::string& line : cavity_notes(scene)) say_note(line);
+void print_cavity_notes(const Scene& scene) {
+  for (const std::string& line : cavity_notes(scene)) print_note(line);
 }
 
 }  // namespace wholehand

@@ -14,6 +14,6 @@ namespace wholehand {
 std::vector<std::string> cavity_notes(const Scene& scene);
 
 // The same on stderr, a line each.
-void say_cavity_notes(const Scene& scene);
+void print_cavity_notes(const Scene& scene);
 
 }  // namespace wholehand

@@ -91,7 +91,7 @@ std::string robust_text(const Scene& scene) {
 
 }  // namespace
 
-std::array<Rule, RULE_COUNT> rules_of(const Scene& scene) {
+std::array<Rule, RULE_COUNT> scene_rules(const Scene& scene) {
   return {{{"hand", hand_text(scene)},
            {"strength", strength_text(scene)},
            {"arm", arm_text(scene)},
@@ -104,7 +104,7 @@ std::array<Rule, RULE_COUNT> rules_of(const Scene& scene) {
 
 std::string rule_names() {
   std::vector<std::string> names;
-  for (const Rule& rule : rules_of(Scene())) names.emplace_back(rule.name);
+  for (const Rule& rule : scene_rules(Scene())) names.emplace_back(rule.name);
   return joined(names, ", ");
 }
 

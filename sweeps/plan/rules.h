@@ -28,7 +28,7 @@ enum RulePlace : std::size_t {
 };
 
 // The rules of a scene by RulePlace, in words: a result has them in its attribute `rules`.
-std::array<Rule, RULE_COUNT> rules_of(const Scene& scene);
+std::array<Rule, RULE_COUNT> scene_rules(const Scene& scene);
 
 // Their names, with commas between.
 std::string rule_names();

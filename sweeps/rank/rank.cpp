@@ -53,7 +53,7 @@ bool is_usual(const std::string& name) {
 }
 
 // The variables of these names; throws for all that are not there. `who` lacks them.
-std::vector<const Variable*> needed(const FindVariable& find, const std::vector<std::string>& names, const std::string& who) {
+std::vector<const Variable*> needed(const FindVariable& find, const std::vector<std::string>& names, const std::string& source) {
   std::vector<const Variable*> variables;
   std::vector<std::string> missing;
   for (const std::string& name : names) {
@@ -63,11 +63,11 @@ std::vector<const Variable*> needed(const FindVariable& find, const std::vector<
   if (missing.empty()) return variables;
   if (!std::ranges::all_of(missing, is_usual)) {
     throw usage_error(
-        fmt::format("{} lacks {}, which a sweep keeps on request; add {} to [output] also, or to its keep, and sweep again", who,
+        fmt::format("{} lacks {}, which a sweep keeps on request; add {} to [output] also, or to its keep, and sweep again", source,
                     joined(missing, ", "), missing.size() == 1 ? "it" : "them"));
   }
   throw usage_error(
-      fmt::format("{} lacks {}, as keep of the sweep does not name {}; add {} to keep, or remove keep, and sweep again", who,
+      fmt::format("{} lacks {}, as keep of the sweep does not name {}; add {} to keep, or remove keep, and sweep again", source,
                   joined(missing, ", "), missing.size() == 1 ? "it" : "them", missing.size() == 1 ? "it" : "them"));
 }
 

@@ -94,7 +94,7 @@ class SweepDefinition : ResultDefinition {
     text(NC_GLOBAL, "version", contents_.version);
     text(NC_GLOBAL, "scene", scene.text);
     std::vector<std::string> rules;
-    for (const Rule& rule : rules_of(scene)) rules.push_back(fmt::format("{}: {}", rule.name, rule.text));
+    for (const Rule& rule : scene_rules(scene)) rules.push_back(fmt::format("{}: {}", rule.name, rule.text));
     text(NC_GLOBAL, "rules", joined(rules, "\n"));
     text(NC_GLOBAL, "backend", info.backend);
     text(NC_GLOBAL, "device", info.device);

@@ -137,15 +137,15 @@ bool AutoBackend::resume(const Scene& scene) {
   return true;
 }
 
-void AutoBackend::take_core() {
+void AutoBackend::switch_to_core() {
   may_change_ = false;
   options_.on = "core";
   options_.alternative = "";
 }
 
-void AutoBackend::say_on_core(const std::string& why) const {
+void AutoBackend::note_fallback(const std::string& why) const {
   const std::string line = "on core, since the device does not work: " + why;
-  options_.note ? options_.note(line) : say_note(line);
+  options_.note ? options_.note(line) : print_note(line);
 }
 
 }  // namespace wholehand

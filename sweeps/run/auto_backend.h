@@ -59,7 +59,7 @@ class AutoBackend {
   // What `work` makes of options.on. Where the program chose the device itself and that fails, options.on becomes the core, and `work` is
   // done again; then a note says so. Where the core fails too, it was not the device, and only the core's error is reported.
   template <class Work>
-  auto or_on_core(Work&& work) {
+  auto with_core_fallback(Work&& work) {
     if (!may_change_) return work();
     std::string why;
     try {
@@ -67,21 +67,21 @@ class AutoBackend {
     } catch (const Error& error) {
       why = error.what();
     }
-    take_core();
+    switch_to_core();
     if constexpr (std::is_void_v<decltype(work())>) {
       work();
-      say_on_core(why);
+      note_fallback(why);
     } else {
       auto made = work();
-      say_on_core(why);
+      note_fallback(why);
       return made;
     }
   }
 
  private:
   bool resume(const Scene& scene);
-  void take_core();
-  void say_on_core(const std::string& why) const;
+  void switch_to_core();
+  void note_fallback(const std::string& why) const;
 
   SweepOptions& options_;
   bool may_change_ = false;

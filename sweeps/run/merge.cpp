@@ -204,7 +204,7 @@ class Merge {
 
   ExitCode interrupted(Progress& progress) const {
     progress.clear();
-    say_note("interrupted; the same command begins again, and the shards are as they were");
+    print_note("interrupted; the same command begins again, and the shards are as they were");
     return ExitCode::interrupted;
   }
 

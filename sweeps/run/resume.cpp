@@ -27,8 +27,8 @@ void check_complete(const std::string& result, const Scene& scene, bool on_core,
   there.check_all();
   if (origin.scene != scene.text) refuse("text of the scene");
   Scene read = scene;
-  const std::string trouble = reload_meshes(read, scene.file, origin.mesh_keys, origin.mesh_lattices, true);
-  if (!trouble.empty()) refuse_for(trouble);
+  const std::string refusal = reload_meshes(read, scene.file, origin.mesh_keys, origin.mesh_lattices, true);
+  if (!refusal.empty()) refuse_for(refusal);
   if ((origin.backend == "core") != on_core) refuse("backend: " + origin.backend);
   if (origin.precision != precision) refuse(origin.precision == Precision::single ? "precision: float" : "precision: double");
   for (const Variable* variable : variables) {

@@ -34,11 +34,11 @@ ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
                         own.note ? host::CompileWatch() : show_compiling());
   };
   // by itself, so that a note comes before meshes that take long
-  const auto device_bytes = [&] { return chosen.or_on_core([&] { return largest_buffer(own.on); }); };
+  const auto device_bytes = [&] { return chosen.with_core_fallback([&] { return largest_buffer(own.on); }); };
   const SweepParts parts{
-      [&](const FieldSet& fields) { return chosen.or_on_core([&] { return open(fields); }); },
+      [&](const FieldSet& fields) { return chosen.with_core_fallback([&] { return open(fields); }); },
       [&] { return make_core_evaluator(scene); },
-      [&] { chosen.or_on_core([&] { read_meshes(scene, own, device_bytes); }); },
+      [&] { chosen.with_core_fallback([&] { read_meshes(scene, own, device_bytes); }); },
       [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, "core", Precision::full, own.threads); },
   };
   return run_sweep(scene, own, parts);

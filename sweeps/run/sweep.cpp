@@ -91,7 +91,7 @@ void Sweep::check_room() const {
   check_sweep_size(scene_, size, room);
 }
 
-bool Sweep::is_finished() const {
+bool Sweep::is_already_complete() const {
   struct stat file {};
   return options_.resume && stat(names_.partial.c_str(), &file) != 0 && stat(names_.result.c_str(), &file) == 0 &&
          S_ISREG(file.st_mode);
@@ -102,14 +102,14 @@ ExitCode Sweep::run() {
   std::signal(SIGXFSZ, SIG_IGN);
   // The process is not a quiet sweep's to end: a signal that comes before the first grips waits for them.
   std::optional<InterruptGuard> guard;
-  if (is_quiet()) guard.emplace().on_another([](int) {});
+  if (is_quiet()) guard.emplace().on_second_signal([](int) {});
   // first, since it needs neither room nor a place to write to
-  if (is_finished()) return finished();
+  if (is_already_complete()) return report_already_complete();
   check();
   const OutputLock lock(names_.lock);
-  if (is_finished()) return finished();  // by who had the lock until now
+  if (is_already_complete()) return report_already_complete();  // by who had the lock until now
   open();
-  say_opening();
+  print_header();
   const ResultContents written = contents();
   const bool resumed = begin();
   // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish, but for
@@ -119,10 +119,10 @@ ExitCode Sweep::run() {
   is_marked_ = resumed;
   if (!repair(file, interrupt) || !sweep(file, interrupt)) return interrupted();
   bool is_whole = false;
-  end(file, [&] {
+  save_on_failure(file, [&] {
     BestLists best = find_best();
-    is_whole = complete(best, interrupt);
-    if (is_whole) return finish(file, std::move(best));
+    is_whole = choose_best(best, interrupt);
+    if (is_whole) return publish(file, std::move(best));
     save(file);
   });
   return is_whole ? ExitCode::done : interrupted();
@@ -137,10 +137,10 @@ void Sweep::open() {
   info_ = identified_ = backend_->info();
   evaluator_ = parts_.open_evaluator();
   facts_ = vessel_facts(scene_, *backend_, *evaluator_);
-  if (!is_choosy() && !refines()) evaluator_.reset();
+  if (!needs_distinct_grips() && !refines()) evaluator_.reset();
 }
 
-void Sweep::say_opening() const {
+void Sweep::print_header() const {
   if (options_.warn) options_.warn(scene_, precision());
   for (const std::string& line : cavity_notes(scene_)) note(line);
   for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) note(line);
@@ -149,7 +149,7 @@ void Sweep::say_opening() const {
   print_text(explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
 }
 
-void Sweep::note(const std::string& line) const { is_quiet() ? options_.note(line) : say_note(line); }
+void Sweep::note(const std::string& line) const { is_quiet() ? options_.note(line) : print_note(line); }
 
 void Sweep::print_text(const std::string& text) const {
   if (is_quiet()) return;
@@ -158,17 +158,17 @@ void Sweep::print_text(const std::string& text) const {
 
 ResultContents Sweep::contents() const { return {scene_, plan(), variables_, facts_, info_, version(), best_wanted_}; }
 
-bool Sweep::is_choosy() const { return best_wanted_ > 0 && scene_.output.apart > 0; }
+bool Sweep::needs_distinct_grips() const { return best_wanted_ > 0 && scene_.output.apart > 0; }
 bool Sweep::refines() const { return best_wanted_ > 0 && options_.refine; }
 std::size_t Sweep::pool() const {
-  return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan(), candidates(), scene_.output.apart);
+  return options_.pool > 0 && needs_distinct_grips() ? options_.pool : usual_pool(plan(), candidates(), scene_.output.apart);
 }
 std::size_t Sweep::candidates() const { return robust_candidates(scene_, best_wanted_); }
-std::size_t Sweep::kept_best() const { return is_choosy() ? pool() : candidates(); }
+std::size_t Sweep::kept_best() const { return needs_distinct_grips() ? pool() : candidates(); }
 ListRequest Sweep::list_request() const { return {candidates(), scene_.output.apart, pool(), options_.threads}; }
 // Lists of different grips reach far below the best ones, so that there all grips are judged (docs/results).
-bool Sweep::judges_few() const { return variables_.empty() && best_wanted_ > 0 && !is_choosy(); }
-bool Sweep::ranks_here() const { return best_wanted_ > 0 && (is_choosy() || plan().hand_scales() > 1); }
+bool Sweep::skips_hopeless_efforts() const { return variables_.empty() && best_wanted_ > 0 && !needs_distinct_grips(); }
+bool Sweep::ranks_here() const { return best_wanted_ > 0 && (needs_distinct_grips() || plan().hand_scales() > 1); }
 // The fields that are read back. A device chooses a few of the best over all hands together; with several hand scales, and where grips
 // have to differ, the host chooses from the scores.
 std::vector<int> Sweep::swept_fields() const {
@@ -187,7 +187,7 @@ bool Sweep::has_score() const {
   return std::any_of(variables_.begin(), variables_.end(), [](const Variable* v) { return v->field == FIELD_SCORE; });
 }
 
-ExitCode Sweep::finished() const {
+ExitCode Sweep::report_already_complete() const {
   check_complete(names_.result, scene_, options_.on == "core", precision(), variables_);
   note(fmt::format("{} is complete, so nothing is left to do; the same command without --resume computes it again{}", names_.result,
                    has_usual_order() ? ""
@@ -212,7 +212,7 @@ MarkBounds Sweep::bounds() const {
   return {scene_.vessels.size(),
           plan().grips(),
           std::max(candidates(), kept_best()) * plan().hand_scales(),
-          is_choosy() ? plan().hand_scales() : 0,
+          needs_distinct_grips() ? plan().hand_scales() : 0,
           candidates(),
           has_stretches,
           has_stretches && has_field(FIELD_STATUS)};
@@ -278,7 +278,7 @@ bool Sweep::repair(ResultFile& file, InterruptGuard& interrupt) {
 bool Sweep::repair_stretch(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
   if (is_asked_to_end(interrupt)) return false;
   if (file.holds(v, stretch)) return true;
-  note(fmt::format("{}{}: {} are damaged: computing them again", who(), file.path(), readable_stretch(stretch, v)));
+  note(fmt::format("{}{}: {} are damaged: computing them again", rank_prefix(), file.path(), readable_stretch(stretch, v)));
   return restore_stretch(v, stretch, file, interrupt);
 }
 
@@ -323,7 +323,7 @@ bool Sweep::sweep(ResultFile& file, InterruptGuard& interrupt) {
   Progress progress(total(), done(), "grips", is_quiet() ? ProgressSink::none : progress_sink(ProgressSink::none));
   last_mark_ = monotonic_now();
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
-    forget();
+    reset_score_cache();
     while (mark_.vessels[v].done < plan().grips()) {
       run_stretch(v, file, interrupt, progress);
       if (is_asked_to_end(interrupt) && done() < total()) {
@@ -335,7 +335,7 @@ bool Sweep::sweep(ResultFile& file, InterruptGuard& interrupt) {
     }
     file.start_sync();
     progress.clear();
-    if (is_choosy() && !choose(v, file, interrupt)) return false;
+    if (needs_distinct_grips() && !choose(v, file, interrupt)) return false;
   }
   return true;
 }
@@ -352,7 +352,7 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   HandLists best(plan(), kept_best(), vessel.best);
   request.best = ranks_here() ? 0 : candidates();
   std::atomic<double> least_score{best.least()};
-  if (judges_few()) request.least_score = &least_score;
+  if (skips_hopeless_efforts()) request.least_score = &least_score;
   std::vector<Candidate> eligible;
   request.sink = [&](const PlaneChunk& chunk) {
     const double start = monotonic_now();
@@ -362,10 +362,10 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
       best.offer(chunk, backend_->fields());
       least_score = best.least();
     }
-    if (!remembered_.empty()) {
+    if (!score_cache_.empty()) {
       eligible.clear();
       add_eligible(chunk, backend_->fields(), eligible);
-      remember(eligible, chunk.count);
+      cache_scores(eligible, chunk.count);
     }
     if (has_heat_map()) maps_[v].add(plan(), chunk, backend_->fields());
     delivered += chunk.count;
@@ -393,12 +393,12 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   }
   kernel_seconds_ += result.kernel_seconds;
   mark_.kernel_seconds += result.kernel_seconds;
-  say_once(result.notes, &progress);
+  note_once(result.notes, &progress);
 }
 
-void Sweep::say_once(const std::vector<std::string>& notes, Progress* progress) {
+void Sweep::note_once(const std::vector<std::string>& notes, Progress* progress) {
   for (const std::string& line : notes) {
-    if (!said_.insert(line).second) continue;
+    if (!noted_.insert(line).second) continue;
     if (progress) progress->clear();
     note(line);
   }
@@ -412,49 +412,49 @@ bool Sweep::choose(std::size_t v, ResultFile& file, InterruptGuard& interrupt) {
   ListChooser chooser(plan(), evaluator_.get(), v, list_request(), vessel.lists);
   if (is_first) {
     chooser.offer(vessel.best);
-    end_pass(chooser, vessel);
+    choose_from_pass(chooser, vessel);
   }
   while (!chooser.is_complete()) {
-    const bool is_known = remembered_count_ == plan().grips();
+    const bool is_known = cached_count_ == plan().grips();
     if (is_asked_to_end(interrupt) || (!is_known && !pass_again(v, chooser, interrupt))) {
       save(file);
       return false;
     }
-    if (is_known) pass_remembered(chooser);
-    end_pass(chooser, vessel);
+    if (is_known) pass_cached_scores(chooser);
+    choose_from_pass(chooser, vessel);
     if (is_mark_due()) save(file);
   }
   return true;
 }
 
-void Sweep::end_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose) {
+void Sweep::choose_from_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose) {
   chooser.end_pass(pose);
   vessel.lists = chooser.progress();
   vessel.best = chooser.chosen();
 }
 
 // Room for the scores of the next vessel, if there are not too many.
-void Sweep::forget() {
-  const bool has_room = is_choosy() && plan().grips() <= options_.remembered;
-  remembered_.assign(has_room ? static_cast<std::size_t>(plan().grips()) : 0, std::numeric_limits<double>::quiet_NaN());
-  remembered_count_ = 0;
+void Sweep::reset_score_cache() {
+  const bool has_room = needs_distinct_grips() && plan().grips() <= options_.cached_scores;
+  score_cache_.assign(has_room ? static_cast<std::size_t>(plan().grips()) : 0, std::numeric_limits<double>::quiet_NaN());
+  cached_count_ = 0;
 }
 
 // Chunks come in ascending order; those from before an interrupt do not come again, and then a further pass does.
-void Sweep::remember(const std::vector<Candidate>& eligible, std::size_t of_grips) {
-  if (remembered_.empty()) return;
-  for (const Candidate& grip : eligible) remembered_[static_cast<std::size_t>(grip.index)] = grip.score;
-  remembered_count_ += of_grips;
+void Sweep::cache_scores(const std::vector<Candidate>& eligible, std::size_t of_grips) {
+  if (score_cache_.empty()) return;
+  for (const Candidate& grip : eligible) score_cache_[static_cast<std::size_t>(grip.index)] = grip.score;
+  cached_count_ += of_grips;
 }
 
 // A further pass over scores that are known. An interrupt is checked before the next pass.
-void Sweep::pass_remembered(ListChooser& chooser) const {
+void Sweep::pass_cached_scores(ListChooser& chooser) const {
   constexpr std::size_t AT_ONCE = 1 << 16;
   std::vector<Candidate> eligible;
-  for (std::size_t first = 0; first < remembered_.size(); first += AT_ONCE) {
+  for (std::size_t first = 0; first < score_cache_.size(); first += AT_ONCE) {
     eligible.clear();
-    for (std::size_t i = first; i < std::min(remembered_.size(), first + AT_ONCE); ++i)
-      if (!std::isnan(remembered_[i])) eligible.push_back({remembered_[i], i});
+    for (std::size_t i = first; i < std::min(score_cache_.size(), first + AT_ONCE); ++i)
+      if (!std::isnan(score_cache_[i])) eligible.push_back({score_cache_[i], i});
     chooser.offer(eligible);
   }
 }
@@ -466,13 +466,13 @@ bool Sweep::pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& inte
   RunRequest request = grips_of(v, interrupt);
   request.last = plan().grips();
   std::vector<Candidate> eligible;
-  forget();
+  reset_score_cache();
   request.sink = [&](const PlaneChunk& chunk) {
     const double start = monotonic_now();
     eligible.clear();
     add_eligible(chunk, backend_->fields(), eligible);
     chooser.offer(eligible);
-    remember(eligible, chunk.count);
+    cache_scores(eligible, chunk.count);
     delivered += chunk.count;
     if (is_time_up()) interrupt.flag() = true;
     progress.update(scene_.vessels[v].name + ", again for different best grips", delivered);
@@ -483,7 +483,7 @@ bool Sweep::pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& inte
   wait_seconds_ += since(start);
   kernel_seconds_ += result.kernel_seconds;
   mark_.kernel_seconds += result.kernel_seconds;
-  say_once(result.notes, &progress);
+  note_once(result.notes, &progress);
   return result.done == plan().grips();
 }
 
@@ -523,7 +523,7 @@ BestLists Sweep::find_best() const {
   return lists;
 }
 
-void Sweep::end(ResultFile& file, const std::function<void()>& ending) {
+void Sweep::save_on_failure(ResultFile& file, const std::function<void()>& ending) {
   try {
     ending();
   } catch (...) {
@@ -537,7 +537,7 @@ void Sweep::end(ResultFile& file, const std::function<void()>& ending) {
 }
 
 // It may take as long as the sweep.
-bool Sweep::complete(BestLists& best, InterruptGuard& interrupt) const {
+bool Sweep::choose_best(BestLists& best, InterruptGuard& interrupt) const {
   const auto look = [&] {
     if (is_asked_to_end(interrupt)) interrupt.flag() = true;
     return interrupt.flag().load();
@@ -599,7 +599,7 @@ std::string Sweep::counts_text(std::size_t v) const {
 
 double Sweep::gate(std::size_t v) const { return gate_tolerance(scene_, facts_[v].empty_mass); }
 
-void Sweep::finish(ResultFile& file, BestLists best) {
+void Sweep::publish(ResultFile& file, BestLists best) {
   if (has_usual_order()) describe_best(companions(), best);
   std::vector<std::vector<RankedGrip>> ranked(best.size());
   for (std::size_t list = 0; list < best.size(); ++list) {

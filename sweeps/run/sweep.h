@@ -47,12 +47,12 @@ class Sweep {
   // Refuses what it can before any work, meshes unread.
   void check() const;
   // Whether there is nothing to resume since the result is complete, and the words for that.
-  bool is_finished() const;
-  ExitCode finished() const;
+  bool is_already_complete() const;
+  ExitCode report_already_complete() const;
   // Meshes, warnings, devices: after this plan(), backend_, evaluator_ and facts_ are there. Where parts_ have changed options_.on, and with it the
   // precision, the room on the disk is checked again.
   void open();
-  void say_opening() const;
+  void print_header() const;
   // A note goes to options.note where that is set, and print_text then prints nothing; else to standard error.
   void note(const std::string& line) const;
   void print_text(const std::string& text) const;
@@ -65,29 +65,29 @@ class Sweep {
   // Computes a stretch that the file does not hold. Likewise.
   bool restore_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
   // How a note about this process's own work begins, where others work on the same sweep.
-  virtual std::string who() const { return ""; }
+  virtual std::string rank_prefix() const { return ""; }
   // Everything up to here onto the disk, then the mark that says so.
   void save(ResultFile& file);
   ExitCode interrupted() const;
   // Does what follows the last grip. Where that fails the mark has all grips, as far as it can be written.
-  void end(ResultFile& file, const std::function<void()>& ending);
+  void save_on_failure(ResultFile& file, const std::function<void()>& ending);
   // The places of the grips of each list; which of them are listed in the end, and their refined grips and robust scores, false where that was
   // interrupted; and the files, once all is known.
   BestLists find_best() const;
-  bool complete(BestLists& best, InterruptGuard& interrupt) const;
-  void finish(ResultFile& file, BestLists best);
+  bool choose_best(BestLists& best, InterruptGuard& interrupt) const;
+  void publish(ResultFile& file, BestLists best);
 
   const Plan& plan() const { return *plan_; }
   ResultContents contents() const;
   Precision precision() const;
   double gate(std::size_t vessel) const;  // gate_tolerance (core/tolerances.h)
   std::map<std::string, std::string> identity() const;
-  bool is_choosy() const;                       // whether the best grips have to differ
+  bool needs_distinct_grips() const;            // whether the best grips have to differ
   bool refines() const;                         // whether it searches for better grips near the best ones
   std::size_t candidates() const;               // grips of a list of which the best are chosen in the end
   std::size_t pool() const;                     // grips of a list that one pass keeps
   std::size_t kept_best() const;                // grips of a list that are kept until all grips are there
-  bool judges_few() const;                      // whether efforts are computed only of grips that may still be listed
+  bool skips_hopeless_efforts() const;          // whether efforts are computed only of grips that may still be listed
   bool ranks_here() const;                      // whether the best are found from scores that are read back, and not by the backend
   bool has_field(int field) const;              // whether it is read back
   bool has_heat_map() const;                    // whether scores and status are read back, and the score is wanted
@@ -98,9 +98,9 @@ class Sweep {
   bool is_time_up() const;                      // the sweep's time limit has passed
   bool is_asked_to_end(InterruptGuard&) const;  // by a signal, or by the time limit
   bool is_mark_due() const;
-  RunRequest grips_of(std::size_t vessel, InterruptGuard& interrupt) const;  // all but what is done with them
-  void say_once(const std::vector<std::string>& notes, Progress* progress);  // which may be null
-  static void end_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose = {});
+  RunRequest grips_of(std::size_t vessel, InterruptGuard& interrupt) const;   // all but what is done with them
+  void note_once(const std::vector<std::string>& notes, Progress* progress);  // which may be null
+  static void choose_from_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose = {});
 
   const Scene& scene_;
   const SweepOptions& options_;
@@ -141,17 +141,17 @@ class Sweep {
   bool sweep(ResultFile& file, InterruptGuard& interrupt);
   void run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interrupt, Progress& progress);
   bool choose(std::size_t v, ResultFile& file, InterruptGuard& interrupt);
-  void forget();
-  void remember(const std::vector<Candidate>& eligible, std::size_t of_grips);
-  void pass_remembered(ListChooser& chooser) const;
+  void reset_score_cache();
+  void cache_scores(const std::vector<Candidate>& eligible, std::size_t of_grips);
+  void pass_cached_scores(ListChooser& chooser) const;
   bool pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& interrupt);
 
   double wall_before_ = 0;  // of earlier sessions, s
   double mark_interval_;
   double last_mark_ = 0;  // s of the clock
-  std::set<std::string> said_;
-  std::vector<double> remembered_;      // scores of the vessel under way; NaN: not eligible. Empty: not kept
-  std::uint64_t remembered_count_ = 0;  // grips whose outcome is in there
+  std::set<std::string> noted_;
+  std::vector<double> score_cache_;  // scores of the vessel under way; NaN: not eligible. Empty: not kept
+  std::uint64_t cached_count_ = 0;   // grips whose outcome is in there
 };
 
 }  // namespace wholehand

@@ -37,7 +37,7 @@ struct SweepOptions {
   std::string alternative = {};
   std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/lists/list_chooser.h); 0: usual_pool
   // Scores of one vessel's grips that are kept for further passes, 8 B each; of more grips each pass evaluates all of them again.
-  std::size_t remembered = std::size_t{1} << 22;
+  std::size_t cached_scores = std::size_t{1} << 22;
   double time_limit = 0;    // s after `started` at which the sweep ends as if interrupted; 0: none
   double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
   // For machines without a shared file system: those with the same name write into one file; empty: those of a node. Absent: all into one.

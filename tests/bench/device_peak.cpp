@@ -66,8 +66,8 @@ DevicePeak device_peak(const host::Device& on, Precision precision) {
 
 double device_copy_rate(const host::Device& on) {
   const host::Kernel kernel = bench_kernel(on, "copy", Precision::single);
-  const std::size_t wished = on.info().kind == host::DeviceKind::cpu ? CPU_COPY : GPU_COPY;
-  const std::size_t bytes = std::min<std::size_t>({wished, on.info().max_storage_range, on.info().memory / 4}) / 4096 * 4096;
+  const std::size_t wanted = on.info().kind == host::DeviceKind::cpu ? CPU_COPY : GPU_COPY;
+  const std::size_t bytes = std::min<std::size_t>({wanted, on.info().max_storage_range, on.info().memory / 4}) / 4096 * 4096;
   const host::Buffer from(on, bytes), to(on, bytes);
   const auto pieces = static_cast<std::uint32_t>(bytes / (COPY_WORDS * sizeof(std::uint32_t)));
   host::Commands commands;

@@ -33,7 +33,7 @@ void must(wh_status status) {
   if (status != WH_OK) throw failure_error(wh_message());
 }
 
-void told(benchmark::State& state, double cpp, double c, double items) {
+void report_rates(benchmark::State& state, double cpp, double c, double items) {
   state.SetItemsProcessed(static_cast<std::int64_t>(items));
   state.counters["ratio"] = c / cpp;
   state.counters["added_us"] = (c - cpp) / items * 1e6;
@@ -82,7 +82,7 @@ void session_step(benchmark::State& state) {
     steps += static_cast<double>(ticks);
     state.SetIterationTime(c);
   }
-  told(state, cpp, c, steps);
+  report_rates(state, cpp, c, steps);
 }
 
 // The default scene's grips on one thread of the core, their scores and masks kept.
@@ -136,7 +136,7 @@ void library_grips(benchmark::State& state) {
   }
   if (score != expected || mask != expected_mask) state.SkipWithError("the two ways differ");
   wh_batch_free(&batch);
-  told(state, cpp, c, grips);
+  report_rates(state, cpp, c, grips);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ const CheckedMesh& flask() {
 // The widest spacing with at least `samples` samples.
 MeshLattice lattice_of(const MeshDistance& distance, int samples) {
   const double margin = lattice_margin(three_beakers());
-  LatticeWish wish;
-  wish.margin = margin;
+  LatticeSpec spec;
+  spec.margin = margin;
   const MeshFacts& facts = flask().facts;
   const auto count = [&](double spacing) {
     double all = 1;
@@ -44,8 +44,8 @@ MeshLattice lattice_of(const MeshDistance& distance, int samples) {
   };
   double low = 1e-4, high = 1e-2;
   while (high - low > 1e-9) (count((low + high) / 2) >= samples ? low : high) = (low + high) / 2;
-  wish.spacing = low;
-  return lattice_of_mesh(distance, flask(), wish);
+  spec.spacing = low;
+  return lattice_of_mesh(distance, flask(), spec);
 }
 
 // As many samples as 128 in each direction have, on all threads, Embree's tree included; a sweep pays this once a mesh.

@@ -276,7 +276,7 @@ std::size_t asked_reference_sets() {
   return asked ? static_cast<std::size_t>(std::strtoull(asked, nullptr, 10)) : 2000;
 }
 
-std::string told(std::uint64_t seed, const ContactSet& set) {
+std::string description(std::uint64_t seed, const ContactSet& set) {
   return "seed " + std::to_string(seed) + ", " + std::to_string(set.contacts.size()) + " contacts, mu " +
          std::to_string(set.hand.friction) + ", gamma " + std::to_string(set.hand.torsion);
 }
@@ -337,7 +337,7 @@ TEST(EffortReference, BracketsOverlapLinearPrograms) {
   for (std::uint64_t seed = 0; seed < asked_reference_sets(); ++seed) {
     const ContactSet set = vessel_contact_set(seed);
     ++counts[set.contacts.size()];
-    ASSERT_NO_FATAL_FAILURE(compare_with_programs(set, told(seed, set), widths));
+    ASSERT_NO_FATAL_FAILURE(compare_with_programs(set, description(seed, set), widths));
   }
   const auto sets = static_cast<int>(asked_reference_sets());
   EXPECT_GT(widths.finite, sets);  // of two for each set, as half of the loads are resisted by the way they are made
@@ -355,7 +355,7 @@ TEST(EffortReference, BracketsOfFewContactsOverlapLinearPrograms) {
   const std::uint64_t sets = asked_reference_sets() / 3;
   for (std::uint64_t seed = 0; seed < sets; ++seed) {
     const ContactSet set = contact_set(seed);
-    ASSERT_NO_FATAL_FAILURE(compare_with_programs(set, told(seed, set), widths));
+    ASSERT_NO_FATAL_FAILURE(compare_with_programs(set, description(seed, set), widths));
   }
   EXPECT_GT(widths.finite, static_cast<int>(sets));
   EXPECT_GT(widths.infinite, static_cast<int>(sets / 5));

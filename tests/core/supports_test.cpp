@@ -19,7 +19,7 @@ namespace wholehand {
 namespace {
 
 // A record's code gives back what it was made of.
-constexpr bool codes_are_told_apart() {
+constexpr bool codes_are_distinct() {
   for (int side = -1; side <= 1; ++side)
     for (int supports = 0; supports < 8; ++supports) {
       const int code = ELEMENT_CODE(side, supports);
@@ -27,7 +27,7 @@ constexpr bool codes_are_told_apart() {
     }
   return true;
 }
-static_assert(codes_are_told_apart());
+static_assert(codes_are_distinct());
 
 // Lines and arcs are met to some roundings of coordinates below 0.2 m, and tangents by a rounding more of each.
 constexpr double COORDINATE_ROUNDING = 1e-12;

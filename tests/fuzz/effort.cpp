@@ -107,7 +107,7 @@ double size_about(const EffortCase& asked, const Wrench& wrench) {
   return std::hypot(glm::length(wrench.force), glm::length(wrench.moment - glm::cross(asked.center, wrench.force)) / reach);
 }
 
-std::string told(const EffortCase& asked, const Wrench& load, const Effort& found) {
+std::string description(const EffortCase& asked, const Wrench& load, const Effort& found) {
   std::string text = fmt::format("effort {} to {}, {} pivots\nmu {} gamma {} digits", found.low, found.effort, found.pivots,
                                  asked.hand.friction, asked.hand.torsion);
   for (const double digit : asked.hand.digits) text += fmt::format(" {}", digit);
@@ -124,30 +124,30 @@ void check_forces(const EffortCase& asked, const EffortSolver& solver, const Wre
   const ForceSums sums = sums_of_forces(asked.contacts, forces, asked.hand.torsion, load);
   double all = 0;
   for (const ContactLoad& contact : sums.contacts) {
-    must(contact.normal >= 0, "a contact pulls\n" + told(asked, load, found));
+    must(contact.normal >= 0, "a contact pulls\n" + description(asked, load, found));
     must(contact.across <= asked.hand.friction * contact.normal + SUMMED * contact.size,
-         "out of its cone\n" + told(asked, load, found));
-    must(!contact.twists_in_vain, "a torsion without torsion\n" + told(asked, load, found));
+         "out of its cone\n" + description(asked, load, found));
+    must(!contact.twists_in_vain, "a torsion without torsion\n" + description(asked, load, found));
     all += contact.size;
   }
   const double size = size_about(asked, load), left = size_about(asked, sums.rest);
   if (found.effort == 0 && size <= NO_LOAD * std::max(1.0, *std::max_element(asked.hand.digits.begin(), asked.hand.digits.end())))
     return;
   must(left <= BALANCED * size + SUMMED * all,
-       fmt::format("{} of {} N are not balanced, of forces of {} N\n", left, size, all) + told(asked, load, found));
+       fmt::format("{} of {} N are not balanced, of forces of {} N\n", left, size, all) + description(asked, load, found));
   for (std::size_t digit = 0; digit < DIGITS; ++digit)
     must(sums.pressed[digit] <= found.effort * asked.hand.digits[digit] * (1 + SUMMED),
-         "a digit presses more\n" + told(asked, load, found));
+         "a digit presses more\n" + description(asked, load, found));
 }
 
 void check_bracket(const EffortCase& asked, const Wrench& load, const Effort& found) {
-  must(!std::isnan(found.effort) && !std::isnan(found.low), "NaN\n" + told(asked, load, found));
-  must(0 <= found.low && found.low <= found.effort, "no bracket\n" + told(asked, load, found));
-  must(found.pivots <= 2 * core_f64::EFFORT_PIVOTS, "too many pivots\n" + told(asked, load, found));
+  must(!std::isnan(found.effort) && !std::isnan(found.low), "NaN\n" + description(asked, load, found));
+  must(0 <= found.low && found.low <= found.effort, "no bracket\n" + description(asked, load, found));
+  must(found.pivots <= 2 * core_f64::EFFORT_PIVOTS, "too many pivots\n" + description(asked, load, found));
   if (std::isfinite(found.effort)) return;
   double size = 0;
   for (const double part : found.escape) size += std::abs(part);
-  must(std::isfinite(size) && size > 0, "no motion of which nobody resists the load\n" + told(asked, load, found));
+  must(std::isfinite(size) && size > 0, "no motion of which nobody resists the load\n" + description(asked, load, found));
 }
 
 void check_case(const EffortCase& asked) {
@@ -156,7 +156,7 @@ void check_case(const EffortCase& asked) {
     const double bound = solver.bound(load);
     const Effort found = solver.solve(load);
     check_bracket(asked, load, found);
-    must(!std::isnan(bound) && bound >= found.low * (1 - 1e-6), fmt::format("bound {}\n", bound) + told(asked, load, found));
+    must(!std::isnan(bound) && bound >= found.low * (1 - 1e-6), fmt::format("bound {}\n", bound) + description(asked, load, found));
     if (std::isfinite(found.effort)) check_forces(asked, solver, load, found);
   }
 }

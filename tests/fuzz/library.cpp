@@ -291,10 +291,11 @@ class Program {
       in.set(offsetof(wh_measurement, gap), take_.number(0, 0.1));
       Sized<wh_session_output> out(take_, true);
       if (said(wh_session_step(session, in.get(), out.get())) != WH_OK || !out.is_whole()) continue;
-      const wh_session_output told = out.value();
-      for (const double force : {told.arm_force[0], told.arm_force[1], told.arm_force[2], told.grip_force, told.weight})
+      const wh_session_output reported = out.value();
+      for (const double force :
+           {reported.arm_force[0], reported.arm_force[1], reported.arm_force[2], reported.grip_force, reported.weight})
         must(std::isfinite(force), "a force that is not finite");
-      must(told.state >= WH_FREE && told.state <= WH_LET_GO, "a state that cannot be");
+      must(reported.state >= WH_FREE && reported.state <= WH_LET_GO, "a state that cannot be");
     }
     Sized<wh_hand> hand(take_, true);
     if (said(wh_session_hand(session, hand.get())) == WH_OK && hand.is_whole()) {

@@ -42,7 +42,7 @@ void press_and_release(HeldBody& body, const std::vector<double>& normal_forces,
   body.drive(normal_forces);
   body.push(force);
   for (int k = 0; k < 200; ++k) body.step();
-  body.rest_here();
+  body.set_rest_pose();
   body.release();
 }
 

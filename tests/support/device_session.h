@@ -90,7 +90,7 @@ inline std::vector<StandInPose> presses() {
 
 struct EndedSession {
   int code = -1;  // 1000 + signal where one ended it
-  std::string said, printed;
+  std::string error_output, printed;
 };
 
 // A session in a child of its own.
@@ -197,7 +197,7 @@ class DeviceSession {
 }
 
 inline void expect_said(const EndedSession& ended, const std::string& gist) {
-  EXPECT_NE(ended.said.find(gist), std::string::npos) << ended.said << "lacks " << gist;
+  EXPECT_NE(ended.error_output.find(gist), std::string::npos) << ended.error_output << "lacks " << gist;
 }
 
 // Calls `act` in the write of that number, counted from 1.

@@ -52,7 +52,7 @@ void check_session(MockGripper& mock, const Open& open) {
   GripperState state, last;
   const auto force_at = [](int i) { return GripperForce{{0.01 * i, -0.02 * i, 0.5}, i % 2 ? 1.25 : -1.25}; };
   for (int i = 0; i < CYCLES; ++i) {
-    ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << i << ' ' << gripper->trouble();
+    ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << i << ' ' << gripper->last_error();
     const GripperState truth = mock.motion_at(state.time);
     for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_NEAR(state.position[axis], truth.position[axis], ROUNDING) << i;
     for (std::size_t part = 0; part < 9; ++part) ASSERT_NEAR(state.rotation[part], truth.rotation[part], 2 * ROUNDING) << i;
@@ -63,7 +63,7 @@ void check_session(MockGripper& mock, const Open& open) {
       ASSERT_GT(state.time, last.time) << i;
     }
     last = state;
-    ASSERT_TRUE(gripper->write(force_at(i))) << i << ' ' << gripper->trouble();
+    ASSERT_TRUE(gripper->write(force_at(i))) << i << ' ' << gripper->last_error();
     // on a busy machine the mock may be the slow one, and a force that waits is overtaken by the next
     ASSERT_TRUE(arrives(mock, before + static_cast<std::size_t>(i) + 1)) << i;
   }
@@ -72,7 +72,7 @@ void check_session(MockGripper& mock, const Open& open) {
   EXPECT_TRUE(arrives(mock, before + CYCLES + 1));
   EXPECT_TRUE(mock.has_force());
   EXPECT_FALSE(gripper->write({{0, std::numeric_limits<double>::quiet_NaN(), 0}, 0}));
-  EXPECT_STREQ(gripper->trouble(), "a force that is no number");
+  EXPECT_STREQ(gripper->last_error(), "a force that is no number");
   EXPECT_TRUE(arrives(mock, before + CYCLES + 2));
   gripper.reset();
 
@@ -108,7 +108,7 @@ void check_clock(const Open& open) {
   const double first = state.time;
   double last = first;
   for (int i = 1; last < first + 0.5; ++i) {
-    ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->trouble();
+    ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->last_error();
     ASSERT_GT(state.time, last);
     ASSERT_LT(state.time, last + 2);
     last = state.time;
@@ -141,7 +141,7 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
     mock.misbehave(mischief);
     ASSERT_EQ(first_error(*gripper), ReadOutcome::error);
     if (mischief != Mischief::garbage) {
-      EXPECT_STREQ(gripper->trouble(), words);
+      EXPECT_STREQ(gripper->last_error(), words);
     }
     if (mischief == Mischief::alternating) continue;  // each second one is good
     // the state that was asked for is left alone, and good reports are good again
@@ -152,7 +152,7 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
     mock.misbehave(Mischief::none);
     ReadOutcome outcome = ReadOutcome::error;
     for (int i = 0; i < 200 && outcome != ReadOutcome::value; ++i) outcome = gripper->read(state, i);
-    EXPECT_EQ(outcome, ReadOutcome::value) << gripper->trouble();
+    EXPECT_EQ(outcome, ReadOutcome::value) << gripper->last_error();
   }
   // the same measurement again and again is a value: the loop judges it
   mock.misbehave(Mischief::same_sequence);
@@ -176,7 +176,7 @@ void check_silence(MockGripper& mock, const Open& open) {
   EXPECT_TRUE(mock.has_force());
   mock.misbehave(Mischief::silent);
   ASSERT_EQ(first_failure([&gripper](GripperState& state) { return gripper->read(state, 0); }), ReadOutcome::timeout);
-  EXPECT_STREQ(gripper->trouble(), "no report");
+  EXPECT_STREQ(gripper->last_error(), "no report");
   const auto start = std::chrono::steady_clock::now();
   GripperState state;
   EXPECT_EQ(gripper->read(state, 0), ReadOutcome::timeout);
@@ -190,10 +190,10 @@ void check_silence(MockGripper& mock, const Open& open) {
   gripper->write({{1, 2, 3}, 1});
   EXPECT_FALSE(mock.has_force()) << "it started again with the force of before";
   ASSERT_EQ(first_error(*gripper), ReadOutcome::error);
-  EXPECT_STREQ(gripper->trouble(), "the device's watchdog has tripped");
+  EXPECT_STREQ(gripper->last_error(), "the device's watchdog has tripped");
   gripper.reset();
   gripper = open();
-  EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->trouble();
+  EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->last_error();
 }
 
 template <class Open>
@@ -204,13 +204,13 @@ void check_unplugging(MockGripper& mock, const Open& open) {
   ASSERT_TRUE(gripper->write({{1, 0, 0}, 0}));
   mock.unplug();
   ASSERT_EQ(first_error(*gripper), ReadOutcome::error);
-  EXPECT_STREQ(gripper->trouble(), "unplugged");
+  EXPECT_STREQ(gripper->last_error(), "unplugged");
   EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::error);
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
-  EXPECT_STREQ(gripper->trouble(), "unplugged");
-  EXPECT_EQ(gripper->let_go(), LetGo::not_taken);
-  EXPECT_STREQ(gripper->trouble(), "unplugged");
-  EXPECT_EQ(gripper->panic(), LetGo::not_taken) << "nothing was written";
+  EXPECT_STREQ(gripper->last_error(), "unplugged");
+  EXPECT_EQ(gripper->release(), ReleaseResult::refused);
+  EXPECT_STREQ(gripper->last_error(), "unplugged");
+  EXPECT_EQ(gripper->panic(), ReleaseResult::refused) << "nothing was written";
 }
 
 // A handler for a signal while it lives.
@@ -243,16 +243,16 @@ void check_panic(MockGripper& mock, const Open& open) {
   ASSERT_TRUE(arrives(mock, opened + 1));
   ASSERT_TRUE(mock.has_force());
   const std::size_t before = mock.outputs().size();
-  static LetGo outcome;
-  outcome = LetGo::nothing;
+  static ReleaseResult outcome;
+  outcome = ReleaseResult::no_force;
   const Handler handler(SIGUSR1, [](int) { outcome = frightened->panic(); });
   raise(SIGUSR1);
-  EXPECT_EQ(outcome, LetGo::written);
+  EXPECT_EQ(outcome, ReleaseResult::written);
   ASSERT_EQ(mock.outputs().size(), before + 1);
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
   EXPECT_TRUE(gripper->write({{1, 2, 3}, 1}));
-  ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->trouble();
+  ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->last_error();
   EXPECT_TRUE(arrives(mock, before + 2));
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
@@ -260,23 +260,23 @@ void check_panic(MockGripper& mock, const Open& open) {
 
 // From a second thread, and the session goes on afterwards.
 template <class Open>
-void check_let_go_meanwhile(MockGripper& mock, const Open& open) {
+void check_release_from_watchdog(MockGripper& mock, const Open& open) {
   const auto gripper = open();
   const std::size_t before = mock.outputs().size();
   ASSERT_TRUE(gripper->write({{1, 2, 3}, 1}));
   ASSERT_TRUE(arrives(mock, before + 1));
   ASSERT_TRUE(mock.has_force());
-  std::thread([&gripper] { EXPECT_EQ(gripper->let_go_meanwhile(), LetGo::written); }).join();
+  std::thread([&gripper] { EXPECT_EQ(gripper->release_from_watchdog(), ReleaseResult::written); }).join();
   ASSERT_TRUE(arrives(mock, before + 2));
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
   ASSERT_TRUE(gripper->write({{0, 0, 0.5}, 0}));
   EXPECT_TRUE(arrives(mock, before + 3));
   EXPECT_TRUE(mock.has_force());
-  EXPECT_EQ(gripper->let_go(), LetGo::written);
+  EXPECT_EQ(gripper->release(), ReleaseResult::written);
   EXPECT_FALSE(mock.has_force());
   mock.misbehave(Mischief::takes_no_force);
-  EXPECT_EQ(gripper->let_go_meanwhile(), LetGo::not_taken);
+  EXPECT_EQ(gripper->release_from_watchdog(), ReleaseResult::refused);
 }
 
 // A signal that somebody else handles is no error of the device. Not for USB: of an ioctl() that a signal interrupts umockdev loses
@@ -294,10 +294,10 @@ void check_signals(MockGripper& mock, const Open& open) {
   });
   GripperState state;
   const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(read(state), ReadOutcome::timeout) << gripper->trouble();
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(read(state), ReadOutcome::timeout) << gripper->last_error();
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::duration<double>(20 * 0.9 * READ_PATIENCE)) << "given up early";
   mock.misbehave(Mischief::none);
-  EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->trouble();
+  EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->last_error();
   is_enough = true;
   knocking.join();
 }
@@ -312,7 +312,7 @@ void check_old_reports(MockGripper& mock, const Open& open) {
   mock.misbehave(Mischief::silent);
   EXPECT_EQ(gripper->read(next, 1), ReadOutcome::timeout);
   mock.misbehave(Mischief::none);
-  ASSERT_EQ(read_soon(*gripper, next), ReadOutcome::value) << gripper->trouble();
+  ASSERT_EQ(read_soon(*gripper, next), ReadOutcome::value) << gripper->last_error();
   EXPECT_GT(next.time, state.time + 0.35);
 }
 
@@ -363,7 +363,7 @@ void check_second_session(MockGripper& mock, const Open& open, const Find& find)
     EXPECT_EQ(found[0].address, "");
     EXPECT_EQ(found[0].missing, "in use by another session");
     GripperState state;
-    EXPECT_EQ(read_soon(*first, state), ReadOutcome::value) << first->trouble();
+    EXPECT_EQ(read_soon(*first, state), ReadOutcome::value) << first->last_error();
     EXPECT_TRUE(first->write({{1, 0, 0}, 0}));
   }
   EXPECT_NO_THROW(open()) << "closed, and still in use";

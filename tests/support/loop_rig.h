@@ -44,20 +44,20 @@ class ScriptedGripper : public Gripper {
     written.push_back(force);
     return !refuses || !refuses(force);
   }
-  LetGo let_go() noexcept override { return write({}) ? LetGo::written : LetGo::not_taken; }
-  const char* trouble() const noexcept override { return words; }
-  LetGo let_go_meanwhile() noexcept override {
+  ReleaseResult release() noexcept override { return write({}) ? ReleaseResult::written : ReleaseResult::refused; }
+  const char* last_error() const noexcept override { return words; }
+  ReleaseResult release_from_watchdog() noexcept override {
     ++meanwhiles;
-    return LetGo::written;
+    return ReleaseResult::written;
   }
   void show(const Tick& tick) noexcept override { shown.push_back(tick.number); }
-  std::int64_t dictated_tick() const noexcept override { return dictate ? dictate() : -1; }
+  std::int64_t replayed_tick() const noexcept override { return replay ? replay() : -1; }
   bool is_done() const noexcept override { return done && done(); }
 
   std::function<GripperState(std::int64_t)> at;
   std::function<ReadOutcome(std::int64_t, GripperState&)> tamper;
   std::function<bool(const GripperForce&)> refuses;
-  std::function<std::int64_t()> dictate;
+  std::function<std::int64_t()> replay;
   std::function<bool()> done;
   const char* words = "";
   std::atomic<int> meanwhiles{0};

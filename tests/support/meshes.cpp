@@ -196,10 +196,10 @@ VesselData vessel_of_mesh(const std::string& name, const TriangleMesh& mesh, dou
   auto body = std::make_shared<MeshBody>(body_of(mesh));
   if (spacing > 0) {
     const CheckedMesh checked = check_mesh(mesh, name);
-    LatticeWish wish;
-    wish.spacing = spacing;
-    wish.margin = lattice_margin(Scene());
-    const MeshLattice made = lattice_of_mesh(MeshDistance(checked), checked, wish);
+    LatticeSpec spec;
+    spec.spacing = spacing;
+    spec.margin = lattice_margin(Scene());
+    const MeshLattice made = lattice_of_mesh(MeshDistance(checked), checked, spec);
     body->lattice = made.lattice;
     body->lattice_error = made.error;
   }

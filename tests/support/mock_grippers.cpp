@@ -171,9 +171,9 @@ std::optional<MockGripper::Bytes> MockGripper::get_feature(std::uint8_t id) cons
 }
 
 bool MockGripper::set_feature(protocol::Bytes report) {
-  protocol::Watchdog wish;
-  if (protocol::decode(report, wish) != protocol::Wrong::nothing) return false;
-  if (!settings_.keeps_watchdog) watchdog_ = wish;
+  protocol::Watchdog requested;
+  if (protocol::decode(report, requested) != protocol::Wrong::nothing) return false;
+  if (!settings_.keeps_watchdog) watchdog_ = requested;
   return true;
 }
 

@@ -64,23 +64,23 @@ class LoggingGripper : public Gripper {
     log_.grip = force.grip;
     return true;
   }
-  LetGo panic() noexcept override {
+  ReleaseResult panic() noexcept override {
     ++log_.panics;
     in_panic();
-    if (answer == LetGo::written) log_.grip = 0;
+    if (answer == ReleaseResult::written) log_.grip = 0;
     ++log_.ended;
     return answer;
   }
-  LetGo let_go_meanwhile() noexcept override {
+  ReleaseResult release_from_watchdog() noexcept override {
     ++log_.meanwhiles;
     in_meanwhile();
     log_.grip = 0;
-    return LetGo::written;
+    return ReleaseResult::written;
   }
 
   std::function<void()> fail = [] {};
   std::function<void()> in_panic = [] {}, in_meanwhile = [] {};
-  LetGo answer = LetGo::written;  // of panic()
+  ReleaseResult answer = ReleaseResult::written;  // of panic()
   std::int64_t fails_at = -1;
 
  private:
@@ -90,7 +90,7 @@ class LoggingGripper : public Gripper {
 
 struct PanicOutcome {
   int code = -1;  // 1000 + signal where one ended it
-  std::string said;
+  std::string error_output;
 };
 
 // Runs in a child, within ten seconds, and keeps what it says on stderr.
@@ -109,7 +109,8 @@ inline PanicOutcome run_in_child(const std::function<void()>& body) {
   close(ends[1]);
   PanicOutcome outcome;
   char part[512];
-  for (ssize_t got = 0; (got = read(ends[0], part, sizeof part)) > 0;) outcome.said.append(part, static_cast<std::size_t>(got));
+  for (ssize_t got = 0; (got = read(ends[0], part, sizeof part)) > 0;)
+    outcome.error_output.append(part, static_cast<std::size_t>(got));
   close(ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
@@ -120,13 +121,13 @@ inline PanicOutcome run_in_child(const std::function<void()>& body) {
 inline int line_count(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
 
 inline void expect_panic(const PanicOutcome& outcome, const PanicLog& log, const std::string& why) {
-  EXPECT_EQ(outcome.code, 3) << outcome.said;
+  EXPECT_EQ(outcome.code, 3) << outcome.error_output;
   EXPECT_EQ(log.panics, 1);
   EXPECT_EQ(log.grip, 0);
-  EXPECT_NE(outcome.said.find("wholehand: live: the program failed (" + why +
-                              "); zero force was written, state released; please report it\n"),
+  EXPECT_NE(outcome.error_output.find("wholehand: live: the program failed (" + why +
+                                      "); zero force was written, state released; please report it\n"),
             std::string::npos)
-      << outcome.said;
+      << outcome.error_output;
 }
 
 // The loop runs on a thread of its own, as in a live session, with a force on the gripper.

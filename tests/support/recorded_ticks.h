@@ -110,7 +110,7 @@ inline std::string record_session(const TemporaryFolder& folder, const std::vect
   const std::string path = folder / "session.nc";
   RecordingWriter writer(path, recorded_info(vessels));
   EXPECT_TRUE(writer.append(ticks));
-  EXPECT_TRUE(writer.finish(recorded_end())) << writer.trouble();
+  EXPECT_TRUE(writer.finish(recorded_end())) << writer.last_error();
   return path;
 }
 

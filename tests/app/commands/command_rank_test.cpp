@@ -97,10 +97,10 @@ TEST_F(CommandRank, AListIsHandedBack) {
   ASSERT_EQ(own.code, 0);
   ASSERT_EQ(listed.code, 0);
   EXPECT_NE(own.output, listed.output);
-  const auto told = parse_json(own.output)["grip"];
-  EXPECT_EQ(told["height_m"], read_values(result, "best_height")[1]);
-  EXPECT_EQ(told["roll_rad"], read_values(result, "best_roll")[1]);
-  EXPECT_EQ(told["obliquity_rad"], read_values(result, "best_obliquity")[1]);
+  const auto reported = parse_json(own.output)["grip"];
+  EXPECT_EQ(reported["height_m"], read_values(result, "best_height")[1]);
+  EXPECT_EQ(reported["roll_rad"], read_values(result, "best_roll")[1]);
+  EXPECT_EQ(reported["obliquity_rad"], read_values(result, "best_obliquity")[1]);
   EXPECT_LT(parse_json(listed.output)["grip"]["roll_rad"], 0) << "as the condition has it";
   EXPECT_EQ(run(by_list + " --glb " + (folder / "g.glb") + " >/dev/null").code, 0);
   EXPECT_TRUE(file_exists(folder / "g.glb"));

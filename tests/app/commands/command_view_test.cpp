@@ -337,8 +337,8 @@ TEST(ViewCommand, ShowsTheGripsOfAList) {
 TEST(ViewCommand, ShowsAGripBesideItsReport) {
   const std::string grip = "grip three_beakers --vessel beaker1 --height-mm 58.5 --roll-deg 22 --fill 0.5 --tilt-deg 40 --json";
   Viewed view(grip + " --view");
-  const json told = parse_json(view.out());
-  EXPECT_EQ(told, parse_json(run("PROGRAM " + grip).output));
+  const json reported = parse_json(view.out());
+  EXPECT_EQ(reported, parse_json(run("PROGRAM " + grip).output));
   const json scene = view.get("scene.json");
   EXPECT_EQ(scene["fills"], json({0.5}));
   ASSERT_EQ(scene["tilts"].size(), 1u);
@@ -347,14 +347,14 @@ TEST(ViewCommand, ShowsAGripBesideItsReport) {
   const json& vessel = frame["vessels"][0];
   for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_NEAR(frame["joints"][j][k].get<double>() - vessel["place"][k].get<double>(), told["proxies_m"][j][k].get<double>(),
+      EXPECT_NEAR(frame["joints"][j][k].get<double>() - vessel["place"][k].get<double>(), reported["proxies_m"][j][k].get<double>(),
                   1e-7);
-      EXPECT_NEAR(frame["rigged"][j][k].get<double>() - vessel["place"][k].get<double>(), told["joints_m"][j][k].get<double>(),
+      EXPECT_NEAR(frame["rigged"][j][k].get<double>() - vessel["place"][k].get<double>(), reported["joints_m"][j][k].get<double>(),
                   1e-7);
     }
   }
   const json tilted = view.get("state?grip=0&fill=0.5&tilt=" + std::to_string(radians(40)));
-  EXPECT_NEAR(tilted["forces"]["feedback"].get<double>(), told["states"][0]["feedback_force_N"].get<double>(), 1e-5);
+  EXPECT_NEAR(tilted["forces"]["feedback"].get<double>(), reported["states"][0]["feedback_force_N"].get<double>(), 1e-5);
   EXPECT_EQ(view.interrupt(), 0);
 }
 

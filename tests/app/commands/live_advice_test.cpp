@@ -113,24 +113,24 @@ TEST_F(LiveAdvised, RefusesWhatDoesNotGoTogether) {
 
 // ---- the parts ----
 
-TEST(AdviceTeller, TellsOfEachBeginningOnce) {
+TEST(AdviceNarrator, TellsOfEachBeginningOnce) {
   const Scene scene = advised_session_scene();
-  AdviceTeller teller(scene);
+  AdviceNarrator narrator(scene);
   Advice advice;
-  EXPECT_FALSE(teller.tell(advice));
+  EXPECT_FALSE(narrator.narrate(advice));
   advice.vessel = 0;
   advice.tick = 1500;
-  const auto first = teller.tell(advice);
+  const auto first = narrator.narrate(advice);
   ASSERT_TRUE(first);
   EXPECT_EQ(*first, "    1.50 s  advice, " + scene.vessels[0].name + ": no grip within reach is possible");
-  EXPECT_FALSE(teller.tell(advice));
+  EXPECT_FALSE(narrator.narrate(advice));
   advice.is_held = true;
-  EXPECT_FALSE(teller.tell(advice)) << "a held grip that is not rated has no words";
+  EXPECT_FALSE(narrator.narrate(advice)) << "a held grip that is not rated has no words";
   advice.present.is_possible = true;
-  EXPECT_TRUE(teller.tell(advice));
-  EXPECT_FALSE(teller.tell(advice));
+  EXPECT_TRUE(narrator.narrate(advice));
+  EXPECT_FALSE(narrator.narrate(advice));
   advice.vessel = -1;
-  EXPECT_FALSE(teller.tell(advice));
+  EXPECT_FALSE(narrator.narrate(advice));
 }
 
 TEST(TallyWords, SayTheRate) {

@@ -69,7 +69,7 @@ TEST(LiveDevice, ALibraryThatExitsIsAFailure) {
   EXPECT_EQ(ended.code, 3);
   EXPECT_GT(session.log->largest(), 0.5);
   EXPECT_EQ(session.log->last().force, 0);
-  EXPECT_EQ(ended.said.substr(ended.said.rfind("wholehand")),
+  EXPECT_EQ(ended.error_output.substr(ended.error_output.rfind("wholehand")),
             "wholehand: live: a library ended the program by exit(0); zero force was written, state released\n");
 }
 
@@ -99,7 +99,7 @@ TEST(LiveDevice, ALibraryThatExitsOutsideTheLoopIsAFailure) {
       };
       const EndedSession ended = session.run([&](StandIn& dhd, DeviceLog&) { dhd->hooks[function] = leave; });
       EXPECT_EQ(ended.code, 3) << function;
-      EXPECT_EQ(ended.said, "wholehand: omega: a library ended the program by exit(0)\n") << function;
+      EXPECT_EQ(ended.error_output, "wholehand: omega: a library ended the program by exit(0)\n") << function;
     }
   }
 }

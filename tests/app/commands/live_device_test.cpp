@@ -32,7 +32,7 @@ TEST(LiveDevice, EndsWithZeroForceAndSaysSo) {
   session.options.seconds = 0.3;
   session.options.json = true;
   const EndedSession ended = session.run([](StandIn&, DeviceLog&) {});
-  EXPECT_EQ(ended.code, 0) << ended.said;
+  EXPECT_EQ(ended.code, 0) << ended.error_output;
   EXPECT_GT(session.log->largest(), 0.5) << "a force was on it";
   EXPECT_EQ(session.log->last().force, 0);
   EXPECT_EQ(parse_json(ended.printed)["force"], "zero force was written");
@@ -45,7 +45,7 @@ TEST(LiveDevice, ANameOfNoEncodingIsPrintedAndIsJson) {
     session.options.seconds = 0.05;
     session.options.json = true;
     const EndedSession ended = session.run([&](StandIn& dhd, DeviceLog&) { dhd->name = name; });
-    EXPECT_EQ(ended.code, 0) << ended.said;
+    EXPECT_EQ(ended.code, 0) << ended.error_output;
     const auto report = try_json(ended.printed);
     ASSERT_FALSE(report.is_discarded()) << ended.printed;
     const std::string said = report["device"]["name"];
@@ -75,14 +75,14 @@ TEST(LiveDevice, TheFirstForceAfterAStopIsZero) {
   session.start([](StandIn&, DeviceLog&) {});
   int stops = 0;
   for (const int ms : {40, 60, 120, 50, 600, 45}) {
-    ASSERT_TRUE(session.has_written(session.log->writes + 50)) << session.wait().said;
+    ASSERT_TRUE(session.has_written(session.log->writes + 50)) << session.wait().error_output;
     session.stop_for(std::chrono::milliseconds(ms));
     ++stops;
   }
   ASSERT_TRUE(session.has_written(session.log->writes + 50));
   session.send(SIGINT);
   const EndedSession ended = session.wait();
-  EXPECT_EQ(ended.code, 130) << ended.said;
+  EXPECT_EQ(ended.code, 130) << ended.error_output;
   EXPECT_GT(session.log->largest(), 0.5);
   expect_zero_after_stops(*session.log, stops);
 }
@@ -106,7 +106,7 @@ TEST(LiveDevice, ALongStopWithinACallGoesOn) {
   DeviceSession session;
   session.start([&](StandIn& dhd, DeviceLog&) { dhd->hooks[GET_POSE] = in_write(200, [] { raise(SIGSTOP); }); });
   session.go_on_after(std::chrono::milliseconds(1500));
-  ASSERT_TRUE(session.has_written(session.log->writes + 50)) << session.wait().said;
+  ASSERT_TRUE(session.has_written(session.log->writes + 50)) << session.wait().error_output;
   session.send(SIGINT);
   EXPECT_EQ(session.wait().code, 130);
   expect_zero_after_stops(*session.log, 1);
@@ -149,7 +149,7 @@ TEST(LiveDevice, ACallThatTakesLongOnceHasTheForceTakenAwayMeanwhile) {
         if (log.writes > before && log.last().force == 0) log.taken = true;
       });
     });
-    EXPECT_EQ(ended.code, 0) << ended.said;
+    EXPECT_EQ(ended.code, 0) << ended.error_output;
     EXPECT_TRUE(session.log->taken) << "a second thread took the force away: " << function;
     expect_said(ended, "a call of the device did not return within 12 ms; meanwhile zero force was written\n");
     EXPECT_GE(parse_json(ended.printed)["late"], 1);

@@ -88,12 +88,12 @@ TEST(LiveReport, TheMixingBoardAddsUpVesselsOfOneLiquid) {
 TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
   LoopReport report;
   report.fault = Fault::read_error;
-  report.trouble = "unplugged";
+  report.error = "unplugged";
   report.last.number = 2004;
   const LiveData live;
   GripperLimits limits;
   Guard guard(live, limits);
-  report.let_go = LetGo::written;
+  report.release = ReleaseResult::written;
   EXPECT_EQ(fault_line(report, guard, live, 0.02),
             "live: a fault ended the session after 2.004 s: read error (unplugged); zero force was written");
   GripperState state;
@@ -102,12 +102,12 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
   state.sequence = 2;
   state.gap = 12e-3;
   report.fault = guard.check(ReadOutcome::value, state, 1);
-  report.trouble.clear();
+  report.error.clear();
   EXPECT_EQ(fault_line(report, guard, live, 0.02),
             "live: a fault ended the session after 2.004 s: jump (its gap by 12 m/s; allowed: up to 5, [live] jump_m_s); zero "
             "force was written");
-  report.let_go = LetGo::not_taken;
-  report.let_go_trouble = "unplugged";
+  report.release = ReleaseResult::refused;
+  report.release_error = "unplugged";
   report.force = {{0, -2.376, 0}, 0.004};
   report.fault = Fault::interrupted;
   EXPECT_TRUE(is_force_left(report));

@@ -50,8 +50,8 @@ class Patient final : public Gripper {
     if (is_holding && force.grip != 0 && ++written == 10 && at_work) at_work();
     return is_taken;
   }
-  LetGo let_go() noexcept override { return gripper_->let_go(); }
-  const char* trouble() const noexcept override { return gripper_->trouble(); }
+  ReleaseResult release() noexcept override { return gripper_->release(); }
+  const char* last_error() const noexcept override { return gripper_->last_error(); }
 
   int patience = 1000, written = 0;
   std::atomic<bool> is_holding = false;  // the session says so
@@ -94,7 +94,7 @@ Carried carry(Patient& gripper, const Scene& scene) {
 }
 
 void expect_whole_session(const Carried& carried) {
-  EXPECT_EQ(carried.report.fault, Fault::none) << carried.report.trouble;
+  EXPECT_EQ(carried.report.fault, Fault::none) << carried.report.error;
   for (const SessionState state :
        {SessionState::free, SessionState::lift, SessionState::tilt, SessionState::slipped, SessionState::released})
     EXPECT_TRUE(carried.states.count(state)) << SESSION_STATE_NAMES[static_cast<std::size_t>(state)];
@@ -156,7 +156,7 @@ TYPED_TEST(OpenGripperSession, WhateverTheDeviceDoesWrongEndsInNoForce) {
       if (wrong == Mischief::silent) gripper.patience = 1;
     };
     const Carried carried = carry(gripper, scene);
-    EXPECT_EQ(carried.report.fault, fault) << static_cast<int>(mischief) << carried.report.trouble;
+    EXPECT_EQ(carried.report.fault, fault) << static_cast<int>(mischief) << carried.report.error;
     EXPECT_EQ(carried.report.last.state, SessionState::released) << static_cast<int>(mischief);
     EXPECT_TRUE(carried.was_held) << "a force was on it";
     EXPECT_EQ(carried.report.last.written.grip, 0);
@@ -183,7 +183,7 @@ TYPED_TEST(OpenGripperSession, UnpluggingEndsItAndSaysSo) {
   gripper.at_work = [&mock] { mock.unplug(); };
   const Carried carried = carry(gripper, scene);
   EXPECT_TRUE(carried.report.fault == Fault::read_error || carried.report.fault == Fault::write_error);
-  EXPECT_NE(carried.report.trouble.find("unplugged"), std::string::npos) << carried.report.trouble;
+  EXPECT_NE(carried.report.error.find("unplugged"), std::string::npos) << carried.report.error;
   EXPECT_EQ(carried.report.last.state, SessionState::released);
   EXPECT_EQ(carried.report.last.written.grip, 0);
 }
@@ -214,7 +214,7 @@ pid_t start_pressing(const std::string& address) {
   HapticLoop loop(scene.live, gripper, session, {}, {});
   const std::atomic<bool> stop{false};
   loop.run(stop);
-  std::fprintf(stderr, "the session ended: %s\n", loop.report().trouble.c_str());
+  std::fprintf(stderr, "the session ended: %s\n", loop.report().error.c_str());
   _exit(3);
 }
 
@@ -365,7 +365,7 @@ TEST(OmegaSession, AReadErrorEndsInNoForceAndSaysTheSdksWords) {
   };
   const Carried carried = carry(gripper, scene);
   EXPECT_EQ(carried.report.fault, Fault::read_error);
-  EXPECT_NE(carried.report.trouble.find("communication error"), std::string::npos) << carried.report.trouble;
+  EXPECT_NE(carried.report.error.find("communication error"), std::string::npos) << carried.report.error;
   EXPECT_EQ(dhd->forces.back(), (std::array<double, 7>{}));
 }
 

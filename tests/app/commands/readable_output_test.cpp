@@ -22,7 +22,7 @@ using wholehand::TemporaryFolder;
 using wholehand::write_file;
 
 // What is read of a page or a picture.
-std::string words_of(const std::string& markup) {
+std::string visible_text(const std::string& markup) {
   std::string text;
   for (std::size_t at = 0; at < markup.size();) {
     if (markup[at] == '<') {
@@ -86,7 +86,7 @@ TEST(ReadableOutput, OfEveryCommandThatPrintsNumbers) {
   for (const char* page : {"many.html", "one.html", "grip.svg", "many.cup.svg", "session/session.svg"}) {
     const std::string text = file_text(folder / page);
     EXPECT_FALSE(text.empty()) << page;
-    expect_readable(words_of(text), page);
+    expect_readable(visible_text(text), page);
   }
 }
 
@@ -103,7 +103,7 @@ TEST(ReadableOutput, HasTheUnitsOfTheSceneAndTheEndOfARange) {
   EXPECT_NE(grip.output.find("safe at every tilt, up to 45 deg"), std::string::npos) << grip.output;
   EXPECT_EQ(grip.output.find("fill 0."), std::string::npos) << grip.output;
   run(in + "report one.nc");
-  const std::string page = words_of(file_text(folder / "one.html"));
+  const std::string page = visible_text(file_text(folder / "one.html"));
   EXPECT_NE(page.find("with the vessel filled with 250 mL"), std::string::npos);
   EXPECT_EQ(page.find("60.5026"), std::string::npos);
 }

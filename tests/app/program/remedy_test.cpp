@@ -15,13 +15,13 @@ namespace wholehand {
 namespace {
 
 TEST(Remedies, FollowTheLine) {
-  EXPECT_EQ(line_of(usage_error("no such vessel")), "no such vessel");
-  EXPECT_EQ(line_of(failure_error("the driver answered ErrorUnknown", Remedy::core)),
+  EXPECT_EQ(error_line(usage_error("no such vessel")), "no such vessel");
+  EXPECT_EQ(error_line(failure_error("the driver answered ErrorUnknown", Remedy::core)),
             "the driver answered ErrorUnknown; use --on core");
-  EXPECT_EQ(line_of(failure_error("it was lost; try again", Remedy::or_core)), "it was lost; try again, or use --on core");
-  EXPECT_EQ(line_of(usage_error("no double precision", Remedy::float_precision)), "no double precision; use --precision float");
+  EXPECT_EQ(error_line(failure_error("it was lost; try again", Remedy::or_core)), "it was lost; try again, or use --on core");
+  EXPECT_EQ(error_line(usage_error("no double precision", Remedy::float_precision)), "no double precision; use --precision float");
   EXPECT_EQ(
-      line_of(failure_error("no SDK; name its path", Remedy::name_library)),
+      error_line(failure_error("no SDK; name its path", Remedy::name_library)),
       "no SDK; name its path (--dhd-library, [device] library of the scene, or the environment variable WHOLEHAND_DHD_LIBRARY)");
 }
 
@@ -29,7 +29,7 @@ TEST(Remedies, ASceneBeyondFloatHasItsOwn) {
   Scene scene = scene_of({beaker1()});
   scene.grips.hand_scale.values = {1, 0.09};
   testing::internal::CaptureStderr();
-  const auto lines = say_float_warnings(scene, Precision::single);
+  const auto lines = print_float_warnings(scene, Precision::single);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_TRUE(lines[0].ends_with(" from double; use --precision double")) << lines[0];
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "wholehand: " + lines[0] + "\n");

@@ -25,7 +25,7 @@ class Live(InFolder):
         with xr.open_dataset("own.nc", decode_times=False) as ticks, wh.session(scene) as session:
             recorded = {name: ticks[name].values for name in ticks.variables}
             states = ticks["state"].attrs["flag_meanings"].split()
-            held, told, efforts = 0, [], []
+            held, reported, efforts = 0, [], []
             pairs = [
                 ("arm_force", "wanted_arm_force"),
                 ("grip_force", "wanted_gripper_force"),
@@ -70,14 +70,14 @@ class Live(InFolder):
                 self.assertEqual(step.state, states[recorded["state"][k]].replace("_", " "))
                 index = recorded["vessel_index"][k]
                 self.assertEqual(step.vessel, None if np.isnan(index) or index < 0 else scene.vessels[int(index)])
-                told.append([getattr(step, own) for own, _ in pairs])
+                reported.append([getattr(step, own) for own, _ in pairs])
                 held += step.is_held
                 if tick % 100 == 0:  # an effort is solved when it is asked for
                     self.assertEqual(np.isnan(step.effort), not step.is_held)
                     efforts += [step.effort] if step.is_held else []
-            self.assertGreater(len(told), 2000)
-            for (own, other), values in zip(pairs, zip(*told)):
-                np.testing.assert_array_equal(np.array(values, float), recorded[other][: len(told)].astype(float), own)
+            self.assertGreater(len(reported), 2000)
+            for (own, other), values in zip(pairs, zip(*reported)):
+                np.testing.assert_array_equal(np.array(values, float), recorded[other][: len(reported)].astype(float), own)
             self.assertGreater(held, 500)
             self.assertEqual(step.grasps, 4)
             self.assertTrue(step.is_task_done)

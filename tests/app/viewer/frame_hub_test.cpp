@@ -19,21 +19,21 @@ TEST(FrameHub, AFrameIsThereForAllWhoWatch) {
   FrameHub hub(2);
   hub.publish("a");
   for (int viewer = 0; viewer < 2; ++viewer) {
-    const auto news = hub.wait(0, LONG);
-    ASSERT_TRUE(news.frame);
-    EXPECT_EQ(*news.frame, "a");
-    EXPECT_EQ(news.number, 1u);
-    EXPECT_FALSE(news.is_over);
+    const auto update = hub.wait(0, LONG);
+    ASSERT_TRUE(update.frame);
+    EXPECT_EQ(*update.frame, "a");
+    EXPECT_EQ(update.number, 1u);
+    EXPECT_FALSE(update.is_over);
   }
 }
 
 TEST(FrameHub, WhoIsSlowGetsTheNewest) {
   FrameHub hub(1);
   for (const char* frame : {"a", "b", "c"}) hub.publish(frame);
-  const auto news = hub.wait(1, LONG);
-  ASSERT_TRUE(news.frame);
-  EXPECT_EQ(*news.frame, "c");
-  EXPECT_EQ(news.number, 3u);
+  const auto update = hub.wait(1, LONG);
+  ASSERT_TRUE(update.frame);
+  EXPECT_EQ(*update.frame, "c");
+  EXPECT_EQ(update.number, 3u);
 }
 
 TEST(FrameHub, NoFrameIsGivenTwice) {
@@ -50,9 +50,9 @@ TEST(FrameHub, WhoJoinsMissesNoFrameFromThenOn) {
   const auto seen = hub.join();
   ASSERT_EQ(seen, 1u);
   hub.publish("new");
-  const auto news = hub.wait(*seen, LONG);
-  ASSERT_TRUE(news.frame);
-  EXPECT_EQ(*news.frame, "new");
+  const auto update = hub.wait(*seen, LONG);
+  ASSERT_TRUE(update.frame);
+  EXPECT_EQ(*update.frame, "new");
 }
 
 TEST(FrameHub, ThereAreNoMoreViewersThanThereMayBe) {
@@ -68,10 +68,10 @@ TEST(FrameHub, ThereAreNoMoreViewersThanThereMayBe) {
 TEST(FrameHub, WhoWaitsIsToldThatItIsOverAndWhy) {
   FrameHub hub(1);
   std::thread viewer([&] {
-    const auto news = hub.wait(0, LONG);
-    EXPECT_TRUE(news.is_over);
-    EXPECT_FALSE(news.frame);
-    EXPECT_EQ(news.reason, "unplugged");
+    const auto update = hub.wait(0, LONG);
+    EXPECT_TRUE(update.is_over);
+    EXPECT_FALSE(update.frame);
+    EXPECT_EQ(update.reason, "unplugged");
   });
   hub.close("unplugged");
   hub.close("later");
@@ -85,10 +85,10 @@ TEST(FrameHub, TheLastFrameIsSeenWithTheEnd) {
   FrameHub hub(1);
   hub.publish("last");
   hub.close("done");
-  const auto news = hub.wait(0, LONG);
-  ASSERT_TRUE(news.frame);
-  EXPECT_EQ(*news.frame, "last");
-  EXPECT_TRUE(news.is_over);
+  const auto update = hub.wait(0, LONG);
+  ASSERT_TRUE(update.frame);
+  EXPECT_EQ(*update.frame, "last");
+  EXPECT_TRUE(update.is_over);
 }
 
 TEST(FrameHub, ManyViewersSeeAscendingFramesAndAllTheLast) {
@@ -100,14 +100,14 @@ TEST(FrameHub, ManyViewersSeeAscendingFramesAndAllTheLast) {
       std::uint64_t seen = 0;
       std::string last;
       for (;;) {
-        const auto news = hub.wait(seen, LONG);
-        if (news.frame) {
-          EXPECT_GT(news.number, seen);
-          EXPECT_EQ(*news.frame, std::to_string(news.number));
-          last = *news.frame;
+        const auto update = hub.wait(seen, LONG);
+        if (update.frame) {
+          EXPECT_GT(update.number, seen);
+          EXPECT_EQ(*update.frame, std::to_string(update.number));
+          last = *update.frame;
         }
-        seen = news.number;
-        if (news.is_over) break;
+        seen = update.number;
+        if (update.is_over) break;
       }
       EXPECT_EQ(last, "500");
       ++ended;

@@ -66,8 +66,8 @@ TEST(GripsView, AFrameIsWhatGripTells) {
     ASSERT_EQ(view.size(), grips.size());
     for (std::size_t g = 0; g < grips.size(); ++g) {
       const StateAxes axes{{0, 0.5, 0.9}, {0, 0.4, radians(100)}};
-      const json told = report_of(scene, grips[g], axes);
-      for (const json& state : told["states"]) {
+      const json reported = report_of(scene, grips[g], axes);
+      for (const json& state : reported["states"]) {
         const ViewFrame frame = view.frame(g, state["fill"], state["tilt_rad"]);
         EXPECT_EQ(frame.vessel, static_cast<int>(grips[g].vessel));
         const ViewFrame::Vessel& vessel = frame.vessels[grips[g].vessel];
@@ -75,12 +75,12 @@ TEST(GripsView, AFrameIsWhatGripTells) {
         for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
           const Vec3 seen = back * (to_vec3(frame.hand.proxies[j]) - to_vec3(vessel.pose.place)),
                      rigged = back * (to_vec3(frame.hand.rigged[j]) - to_vec3(vessel.pose.place));
-          EXPECT_LT(glm::length(seen - to_vec3(told["proxies_m"][j].get<Triple>())), 1e-14) << j;
-          EXPECT_LT(glm::length(rigged - to_vec3(told["joints_m"][j].get<Triple>())), 1e-14) << j;
+          EXPECT_LT(glm::length(seen - to_vec3(reported["proxies_m"][j].get<Triple>())), 1e-14) << j;
+          EXPECT_LT(glm::length(rigged - to_vec3(reported["joints_m"][j].get<Triple>())), 1e-14) << j;
           const PointContact contact = frame.hand.contact[j];
-          EXPECT_EQ(contact != PointContact::free && contact != PointContact::tracked, told["touching"][j].get<bool>()) << j;
+          EXPECT_EQ(contact != PointContact::free && contact != PointContact::tracked, reported["touching"][j].get<bool>()) << j;
           if (j != THUMB_TIP && j != INDEX_TIP) {
-            EXPECT_EQ(contact == PointContact::projected, !told["projected"][j].is_null()) << j;
+            EXPECT_EQ(contact == PointContact::projected, !reported["projected"][j].is_null()) << j;
           }
         }
         EXPECT_EQ(frame.feedback, state["feedback_force_N"]);
@@ -89,8 +89,8 @@ TEST(GripsView, AFrameIsWhatGripTells) {
         EXPECT_EQ(vessel.volume, state["liquid_volume_m3"]);
         EXPECT_NEAR(frame.weight, state["mass_kg"].get<double>() * scene.gravity, 1e-12);
         EXPECT_EQ(std::isfinite(frame.hold) ? json(frame.hold) : json(nullptr), state["hold_force_N"]);
-        EXPECT_EQ(frame.closure, told["closure"]);
-        EXPECT_EQ(frame.gap, told["gap_m"]);
+        EXPECT_EQ(frame.closure, reported["closure"]);
+        EXPECT_EQ(frame.gap, reported["gap_m"]);
         // the liquid's center is under its surface, and the lean of both to the same side
         if (!vessel.surface) continue;
         const Vec3 up = to_vec3(vessel.surface->up), center = to_vec3(state["liquid_com_m"].get<Triple>());
@@ -119,20 +119,20 @@ TEST(GripsView, AFrameHasTheHoldThatGripTells) {
       for (std::size_t k = 0; k < report.holds.size(); ++k) {
         const GripState& state = report.answer.states[k];
         const ViewFrame frame = view.frame(g, state.fill, state.tilt);
-        const StateHold& told = report.holds[k];
+        const StateHold& reported = report.holds[k];
         ASSERT_TRUE(frame.hand.hold);
         const HandHold& seen = *frame.hand.hold;
-        EXPECT_EQ(seen.effort, told.effort);
-        EXPECT_EQ(seen.low, told.low);
-        EXPECT_EQ(seen.tips, told.tips);
-        EXPECT_EQ(frame.hold, told.strength.digits[1] * told.effort) << "the index finger is the weaker one";
-        EXPECT_EQ(seen.presses.empty(), std::isinf(told.effort));
+        EXPECT_EQ(seen.effort, reported.effort);
+        EXPECT_EQ(seen.low, reported.low);
+        EXPECT_EQ(seen.tips, reported.tips);
+        EXPECT_EQ(frame.hold, reported.strength.digits[1] * reported.effort) << "the index finger is the weaker one";
+        EXPECT_EQ(seen.presses.empty(), std::isinf(reported.effort));
         Vec3 sum(0);
         const VesselPose& pose = frame.vessels[grips[g].vessel].pose;
         for (const HandPress& press : seen.presses) {
           sum += to_vec3(press.force);
           const Vec3 place = glm::transpose(to_mat3(pose.rotation)) * (to_vec3(press.place) - to_vec3(pose.place));
-          EXPECT_TRUE(std::any_of(told.contacts.begin(), told.contacts.end(), [&](const HeldContact& contact) {
+          EXPECT_TRUE(std::any_of(reported.contacts.begin(), reported.contacts.end(), [&](const HeldContact& contact) {
             const Vec3 force = to_mat3(pose.rotation) * to_vec3(contact.force);
             return contact.digit == press.digit && glm::length(place - to_vec3(contact.point)) < 1e-12 &&
                    glm::length(force - to_vec3(press.force)) < 1e-12;
@@ -275,20 +275,20 @@ TEST(GripsView, TheListTellsEachGripAndItsTerms) {
   EXPECT_EQ(seen["tilts"], json(scene.tilts));
   ASSERT_EQ(seen["grips"].size(), grips.size());
   for (std::size_t g = 0; g < grips.size(); ++g) {
-    const json &listed = seen["grips"][g], told = report_of(scene, grips[g], scene_axes(scene, 0));
+    const json &listed = seen["grips"][g], reported = report_of(scene, grips[g], scene_axes(scene, 0));
     EXPECT_EQ(listed["vessel"], grips[g].vessel);
     EXPECT_EQ(listed["label"], grips[g].label);
-    EXPECT_EQ(listed["score"], told["score"]);
-    EXPECT_EQ(listed["terms"], told["score_terms"]);
-    for (const auto& [key, value] : told["grip"].items()) EXPECT_EQ(listed[key], value) << key;
-    EXPECT_EQ(listed["gap_m"], told["gap_m"]);
-    EXPECT_EQ(listed["fingers"], told["fingers_used"].size());
+    EXPECT_EQ(listed["score"], reported["score"]);
+    EXPECT_EQ(listed["terms"], reported["score_terms"]);
+    for (const auto& [key, value] : reported["grip"].items()) EXPECT_EQ(listed[key], value) << key;
+    EXPECT_EQ(listed["gap_m"], reported["gap_m"]);
+    EXPECT_EQ(listed["fingers"], reported["fingers_used"].size());
     int points = 0;
-    for (const json& touches : told["touching"]) points += touches.get<bool>();
+    for (const json& touches : reported["touching"]) points += touches.get<bool>();
     EXPECT_EQ(listed["points"], points);
     // the worst over all states
     double peak = 0, hold = 0;
-    for (const json& state : told["states"]) {
+    for (const json& state : reported["states"]) {
       peak = std::max(peak, state["feedback_force_N"].get<double>());
       hold = state["hold_force_N"].is_null() ? INFINITY : std::max(hold, state["hold_force_N"].get<double>());
     }

@@ -37,7 +37,7 @@ class AGrip(ViewerTest):
         self.assertEqual([request for request in page.requests if not request.startswith(self.grip.address)], [])
 
     def test_joints_are_where_grip_json_says(self):
-        told = json.loads(run("grip", *GRIP, "--json"))
+        reported = json.loads(run("grip", *GRIP, "--json"))
         page = self.open(self.grip)
         for tilt in [0, 40]:
             slide(page, "tilt", tilt)
@@ -47,10 +47,10 @@ class AGrip(ViewerTest):
             for joints, expected in [("joints", "proxies_m"), ("rigged", "joints_m")]:
                 for k, joint in enumerate(frame[joints]):
                     in_vessel = turned_back(vessel["rotation"], minus(joint, vessel["place"]))
-                    self.assert_near(in_vessel, told[expected][k], 2 * DIGITS, f"{joints} {k} at {tilt} degrees")
+                    self.assert_near(in_vessel, reported[expected][k], 2 * DIGITS, f"{joints} {k} at {tilt} degrees")
         touching = [letter in "tpK" for letter in frame["contacts"]]
-        self.assertEqual(touching, told["touching"])
-        self.assertEqual([letter == "p" for letter in frame["contacts"]], [role is not None for role in told["projected"]])
+        self.assertEqual(touching, reported["touching"])
+        self.assertEqual([letter == "p" for letter in frame["contacts"]], [role is not None for role in reported["projected"]])
 
     def test_joints_on_screen_are_where_the_camera_sees_them(self):
         page = self.open(self.grip)
@@ -132,17 +132,17 @@ class AGrip(ViewerTest):
     def test_sliders_show_liquid_and_force_at_once(self):
         page = self.open(self.grip)
         for fill, tilt in [(0.5, 60), (0.75, 30)]:
-            told = json.loads(run("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", str(tilt)))["states"][0]
+            reported = json.loads(run("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", str(tilt)))["states"][0]
             slide(page, "fill", fill)
             slide(page, "tilt", tilt)
             page.wait(f"Math.abs(wholehand.frame.tilt - {math.radians(tilt)}) < 1e-6 && "
-                      f"Math.abs(wholehand.frame.vessels[0].volume - {told['liquid_volume_m3']}) < 1e-9", what=f"{fill}, {tilt}")
+                      f"Math.abs(wholehand.frame.vessels[0].volume - {reported['liquid_volume_m3']}) < 1e-9", what=f"{fill}, {tilt}")
             forces = page.evaluate("wholehand.frame.forces")
             for name, key in [("feedback", "feedback_force_N"), ("normal", "normal_force_N")]:
-                self.assertAlmostEqual(forces[name], told[key], delta=1e-6 * max(1, told[key]), msg=name)
-            hold = STRENGTH * told["effort"]
+                self.assertAlmostEqual(forces[name], reported[key], delta=1e-6 * max(1, reported[key]), msg=name)
+            hold = STRENGTH * reported["effort"]
             self.assertAlmostEqual(forces["hold"], hold, delta=BRACKETS * hold, msg="hold")
-            page.wait(f"document.querySelector('.force-value').textContent === '{told['feedback_force_N']:.2f}'", what="the number")
+            page.wait(f"document.querySelector('.force-value').textContent === '{reported['feedback_force_N']:.2f}'", what="the number")
 
     def test_the_curve_over_the_tilt_is_that_of_grip_json(self):
         page = self.open(self.grip)
@@ -150,22 +150,22 @@ class AGrip(ViewerTest):
         page.wait("wholehand.charts.records.length > 0", what="the curve")
         records = page.evaluate("wholehand.charts.records.map(({x, feedback, hold}) => [x, feedback, hold])")
         tilts = [f"{record[0]:.9g}" for record in records]
-        told = json.loads(run("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", *tilts))["states"]
-        for record, state in zip(records, told):
+        reported = json.loads(run("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", *tilts))["states"]
+        for record, state in zip(records, reported):
             hold = STRENGTH * state["effort"]
             self.assertAlmostEqual(record[1], state["feedback_force_N"], delta=1e-4, msg=f"{record[0]} degrees")
             self.assertAlmostEqual(record[2], hold, delta=BRACKETS * hold, msg=f"{record[0]} degrees")
 
     def test_arrows_are_the_contact_forces_of_grip_json(self):
         page = self.open(self.grip)
-        told = json.loads(run("grip", *GRIP, "--json", "--fill", "0.5", "--tilt-deg", "0"))["states"][0]
+        reported = json.loads(run("grip", *GRIP, "--json", "--fill", "0.5", "--tilt-deg", "0"))["states"][0]
         slide(page, "fill", 0.5)
-        page.wait(f"Math.abs(wholehand.frame.vessels[0].volume - {told['liquid_volume_m3']}) < 1e-9", what="the fill")
+        page.wait(f"Math.abs(wholehand.frame.vessels[0].volume - {reported['liquid_volume_m3']}) < 1e-9", what="the fill")
         still(page)
         drawn(page)
         frame = page.evaluate("wholehand.frame")
         holding, vessel = frame["holding"], frame["vessels"][0]
-        pressing = [contact for contact in told["contacts"] if any(contact["force_N"])]
+        pressing = [contact for contact in reported["contacts"] if any(contact["force_N"])]
         largest = max(math.hypot(*contact["force_N"]) for contact in pressing)
         self.assertEqual(len(holding["contacts"]), len(pressing))
         for seen, contact in zip(holding["contacts"], pressing):
@@ -212,7 +212,7 @@ class TheBestOfASweep(ViewerTest):
         self.assertRegex(said[1], "azimuth 0°; .*azimuth 30°$")
         self.assertRegex(said[2], "offset 0.0 mm; .*offset −2.5 mm$")
 
-    def test_the_refined_grip_is_told_beside_the_swept_one(self):
+    def test_the_refined_grip_is_reported_beside_the_swept_one(self):
         page = self.open(self.best)
         scene = self.best.get("scene.json")
         moved = next(k for k, grip in enumerate(scene["grips"]) if grip["refined"]["score"] > grip["score"] + 1e-4)

@@ -246,7 +246,7 @@ class ThePage(ViewerTest):
         page.evaluate("wholehand.playback.seek(3)")
         page.wait("document.getElementById('said').textContent === 'lift, tutorial'")
 
-    def test_a_server_that_is_gone_is_told(self):
+    def test_a_server_that_is_gone_is_reported(self):
         served = self.serve("grip", *GRIP, "--view")
         page = self.browser.open(served.address)
         self.addCleanup(page.close)

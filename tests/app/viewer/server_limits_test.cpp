@@ -85,7 +85,7 @@ TEST(ViewServer, TwoHundredConnectionsAtOnceAreServedOrToldNo) {
   const ServedView served;
   std::vector<HttpSocket> sockets;
   for (int k = 0; k < 200; ++k) sockets.emplace_back(served.at->port);
-  int open = 0, served_now = 0, told = 0;
+  int open = 0, served_now = 0, refused = 0;
   for (HttpSocket& socket : sockets) {
     open += socket.is_open();
     socket.send(served.at->request("scene.json", "Connection: close\r\n"));
@@ -93,10 +93,10 @@ TEST(ViewServer, TwoHundredConnectionsAtOnceAreServedOrToldNo) {
   for (HttpSocket& socket : sockets) {
     const int status = socket.read_reply().status;
     served_now += status == 200;
-    told += status == 503 || status == 0;  // cut at once: what it sent may have come too late to be read
+    refused += status == 503 || status == 0;  // cut at once: what it sent may have come too late to be read
   }
   EXPECT_EQ(open, 200);
-  EXPECT_EQ(served_now + told, 200);
+  EXPECT_EQ(served_now + refused, 200);
   EXPECT_GE(served_now, static_cast<int>(MOST_CONNECTIONS) / 2);
   // those that are there have their threads back
   int again = 0;

@@ -123,7 +123,7 @@ class ASession(ViewerTest):
         self.page.evaluate(lift.format(-0.25))
         self.assertEqual(len(self.page.evaluate(tables)), 1)
 
-    def test_the_force_is_what_is_written_and_the_clamp_is_told(self):
+    def test_the_force_is_what_is_written_and_the_clamp_is_reported(self):
         most = self.page.evaluate("wholehand.scene.force.most")
         self.assertEqual(most, self.live_limit)
         for forces, said in [({"feedback": 10.93, "written": 8, "normal": 0, "opening": 0, "base": 0}, "clamped to 8.00 N, 10.93 N asked for"),

@@ -29,9 +29,9 @@ class FileSetTest : public testing::Test {
 TEST_F(FileSetTest, StandsOnceAllAreWhole) {
   FileSet set;
   for (const char* name : {"a", "b"}) set.write(folder / name, "new", "make room");
-  set.without(folder / "c");
+  set.remove_on_commit(folder / "c");
   for (const char* name : {"a", "b", "c"}) EXPECT_EQ(file_text(folder / name), "old") << name;
-  set.give_names("make room");
+  set.commit("make room");
   for (const char* name : {"a", "b"}) EXPECT_EQ(file_text(folder / name), "new") << name;
   EXPECT_EQ(files_in(folder), 2) << "the third one is gone, and no other names are left";
 }
@@ -39,9 +39,9 @@ TEST_F(FileSetTest, StandsOnceAllAreWhole) {
 TEST_F(FileSetTest, GivenUpItLeavesWhatWasThere) {
   {
     FileSet set;
-    write_file(set.on_the_way(folder / "a"), "new");
-    set.on_the_way(folder / "b");
-    set.without(folder / "c");
+    write_file(set.temporary_path(folder / "a"), "new");
+    set.temporary_path(folder / "b");
+    set.remove_on_commit(folder / "c");
   }
   for (const char* name : {"a", "b", "c"}) EXPECT_EQ(file_text(folder / name), "old") << name;
   EXPECT_EQ(files_in(folder), 3);
@@ -50,9 +50,9 @@ TEST_F(FileSetTest, GivenUpItLeavesWhatWasThere) {
 // One of them is not there, as if the disk had not taken it.
 TEST_F(FileSetTest, NoneGetsItsNameWhereOneFails) {
   FileSet set;
-  write_file(set.on_the_way(folder / "a"), "new");
-  set.on_the_way(folder / "b");
-  EXPECT_EQ(refusal_line([&] { set.give_names("make room"); }, ExitCode::failure),
+  write_file(set.temporary_path(folder / "a"), "new");
+  set.temporary_path(folder / "b");
+  EXPECT_EQ(refusal_line([&] { set.commit("make room"); }, ExitCode::failure),
             "cannot write " + (folder / "b") + ": No such file or directory; make room");
   EXPECT_EQ(file_text(folder / "a"), "old");
 }
@@ -60,10 +60,10 @@ TEST_F(FileSetTest, NoneGetsItsNameWhereOneFails) {
 // As one that was killed leaves it, whatever its number was.
 TEST_F(FileSetTest, WhatAnotherProcessLeftIsOverwritten) {
   write_file(folder / "a.new", "left");
-  EXPECT_EQ(FileSet::name_on_the_way(folder / "a"), folder / "a.new");
+  EXPECT_EQ(FileSet::temporary_name(folder / "a"), folder / "a.new");
   FileSet set;
   set.write(folder / "a", "new", "make room");
-  set.give_names("make room");
+  set.commit("make room");
   EXPECT_EQ(file_text(folder / "a"), "new");
   EXPECT_EQ(files_in(folder), 3);
 }
@@ -80,17 +80,17 @@ TEST_F(FileSetTest, WhatCannotBeRenamedIsNamedWithTheRemedy) {
   for (const char* name : {"a", "b"}) set.write(folder / name, "new", "make room");
   std::filesystem::remove(folder / "a");
   std::filesystem::create_directories(folder / "a/b");
-  EXPECT_EQ(refusal_line([&] { set.give_names("make room"); }, ExitCode::failure),
+  EXPECT_EQ(refusal_line([&] { set.commit("make room"); }, ExitCode::failure),
             "cannot write " + (folder / "a") + ": Is a directory; make room");
   EXPECT_EQ(file_text(folder / "b"), "old");
 }
 
 TEST_F(FileSetTest, WhatIsGivenUpAfterAllIsNotInTheSet) {
   FileSet set;
-  write_file(set.on_the_way(folder / "a"), "new");
-  write_file(set.on_the_way(folder / "b"), "half");
-  set.without(folder / "b");
-  set.give_names("make room");
+  write_file(set.temporary_path(folder / "a"), "new");
+  write_file(set.temporary_path(folder / "b"), "half");
+  set.remove_on_commit(folder / "b");
+  set.commit("make room");
   EXPECT_EQ(file_text(folder / "a"), "new");
   EXPECT_FALSE(file_exists(folder / "b"));
 }
@@ -99,15 +99,15 @@ TEST_F(FileSetTest, ALinkStaysALink) {
   std::filesystem::create_directory(folder / "elsewhere");
   std::filesystem::create_symlink("elsewhere/data", folder / "link");
   FileSet set;
-  write_file(set.on_the_way(folder / "link"), "new");
-  set.give_names("make room");
+  write_file(set.temporary_path(folder / "link"), "new");
+  set.commit("make room");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
   EXPECT_EQ(file_text(folder / "elsewhere/data"), "new");
 }
 
 TEST_F(FileSetTest, MessagesNameTheFilesThemselves) {
   FileSet set;
-  const std::string a = set.on_the_way(folder / "a");
+  const std::string a = set.temporary_path(folder / "a");
   EXPECT_EQ(set.with_own_names("x " + a + " y " + a), "x " + (folder / "a") + " y " + (folder / "a"));
 }
 

@@ -38,16 +38,16 @@ TEST(Parallel, AsManyThreadsAsAreWished) {
 TEST(Parallel, TheCallerIsToldHowManyAreDone) {
   const std::thread::id caller = std::this_thread::get_id();
   for (const int threads : {1, 4}) {
-    std::vector<std::size_t> told;
+    std::vector<std::size_t> reports;
     in_parallel(
         500, threads, [](std::size_t) {},
         [&](std::size_t done) {
           EXPECT_EQ(std::this_thread::get_id(), caller);
-          told.push_back(done);
+          reports.push_back(done);
         });
-    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
     if (threads == 1) {
-      EXPECT_EQ(told.size(), 500u);
+      EXPECT_EQ(reports.size(), 500u);
     }
   }
 }

@@ -31,7 +31,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<double> numbers_of(const Json& list) {
+std::vector<double> doubles_in(const Json& list) {
   std::vector<double> numbers;
   for (const Json& number : list) numbers.push_back(number.is_null() ? std::nan("") : number.get<double>());
   return numbers;
@@ -45,7 +45,7 @@ std::vector<char> answers_of(const Json& list) {
 
 std::vector<std::vector<double>> groups_of(const Json& lists) {
   std::vector<std::vector<double>> groups;
-  for (const Json& list : lists) groups.push_back(numbers_of(list));
+  for (const Json& list : lists) groups.push_back(doubles_in(list));
   return groups;
 }
 
@@ -72,7 +72,7 @@ RunningCorrelation running_of(const std::vector<double>& x, const std::vector<do
 // ---- what may be called ----
 
 Json call_pearson(const Json& call) {
-  const std::vector<double> x = numbers_of(call["x"]), y = numbers_of(call["y"]);
+  const std::vector<double> x = doubles_in(call["x"]), y = doubles_in(call["y"]);
   const RunningCorrelation running = running_of(x, y);
   return {{"whole", written(pearson(x, y), x.size())},
           {"running", written(running.pearson(), running.pairs())},
@@ -80,14 +80,14 @@ Json call_pearson(const Json& call) {
 }
 
 Json call_point_biserial(const Json& call) {
-  const std::vector<double> x = numbers_of(call["x"]);
+  const std::vector<double> x = doubles_in(call["x"]);
   const std::vector<char> yes = answers_of(call["yes"]);
   const RunningCorrelation running = running_of(x, {yes.begin(), yes.end()});
   return {{"whole", written(point_biserial(x, yes), x.size())}, {"running", written(running.point_biserial(), running.pairs())}};
 }
 
 Json call_moments(const Json& call) {
-  const std::vector<double> values = numbers_of(call["values"]);
+  const std::vector<double> values = doubles_in(call["values"]);
   return {{"mean", mean_of(values)}, {"deviation", deviation_of(values)}, {"varies", varies(values)}};
 }
 
@@ -99,7 +99,7 @@ Json call_anova(const Json& call) {
 
 Json call_logistic(const Json& call) {
   const LogisticModel model =
-      fit_logistic_model(numbers_of(call["terms"]), call["count"].get<std::size_t>(), answers_of(call["success"]));
+      fit_logistic_model(doubles_in(call["terms"]), call["count"].get<std::size_t>(), answers_of(call["success"]));
   Json intervals = Json::array();
   for (std::size_t k = 0; k < model.coefficients.size(); ++k) intervals.push_back(written(model.interval(k)));
   return {{"coefficients", model.coefficients}, {"errors", model.errors},
@@ -116,13 +116,13 @@ Json call_f_tail(const Json& call) {
 }
 
 Json call_percentiles(const Json& call) {
-  const std::vector<double> ascending = numbers_of(call["ascending"]);
+  const std::vector<double> ascending = doubles_in(call["ascending"]);
   Json percentiles = Json::array();
-  for (const double share : numbers_of(call["shares"])) percentiles.push_back(percentile_of(ascending, share));
+  for (const double share : doubles_in(call["shares"])) percentiles.push_back(percentile_of(ascending, share));
   return percentiles;
 }
 
-Json call_percentile_interval(const Json& call) { return written(percentile_interval(numbers_of(call["values"]))); }
+Json call_percentile_interval(const Json& call) { return written(percentile_interval(doubles_in(call["values"]))); }
 
 Json call_share(const Json& call) {
   const Share share = share_of(call["yes"].get<std::size_t>(), call["of"].get<std::size_t>());
@@ -137,7 +137,7 @@ Json call_correlation(const Json& call) {
 
 // Means of samples.
 Json call_resampled(const Json& call) {
-  const std::vector<double> values = numbers_of(call["values"]);
+  const std::vector<double> values = doubles_in(call["values"]);
   const auto mean = [&](std::span<const std::size_t> members) {
     double sum = 0;
     for (const std::size_t member : members) sum += values[member];
@@ -153,7 +153,7 @@ Json call_resampled(const Json& call) {
 Json call_sobol(const Json& call) {
   Json all = Json::array();
   for (const SensitivityIndex& index :
-       first_order_indices(numbers_of(call["a"]), numbers_of(call["b"]), groups_of(call["mixed"]), 100, 1))
+       first_order_indices(doubles_in(call["a"]), doubles_in(call["b"]), groups_of(call["mixed"]), 100, 1))
     all.push_back(written(index));
   return all;
 }
@@ -194,7 +194,7 @@ Json call_tally(const Json& call) {
 }
 
 Json call_box(const Json& call) {
-  const Box box = box_of(numbers_of(call["values"]));
+  const Box box = box_of(doubles_in(call["values"]));
   return {{"numbers", {box.low, box.lower_quartile, box.median, box.upper_quartile, box.high}}, {"outliers", box.outliers}};
 }
 

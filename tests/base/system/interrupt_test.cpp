@@ -48,7 +48,7 @@ TEST(Interrupt, SecondSignalIsItsWhoTakesIt) {
   static volatile sig_atomic_t taken;
   taken = 0;
   InterruptGuard guard;
-  guard.on_another([](int signal) { taken = signal; });
+  guard.on_second_signal([](int signal) { taken = signal; });
   raise(SIGINT);
   raise(SIGTERM);
   EXPECT_EQ(taken, 0) << "one wish";

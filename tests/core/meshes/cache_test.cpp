@@ -36,7 +36,7 @@ class MeshCache : public testing::Test {
     root = mkdtemp(name.data());
     folder = root / "grids";
     fs::create_directories(folder);
-    wish.spacing = 20e-3;
+    spec.spacing = 20e-3;
   }
   ~MeshCache() override {
     std::error_code ignored;
@@ -45,11 +45,11 @@ class MeshCache : public testing::Test {
   }
 
   // The cache's answer, and whether it had to be made.
-  MeshLattice ask(const CheckedMesh& of, const LatticeWish& with) {
+  MeshLattice ask(const CheckedMesh& of, const LatticeSpec& with) {
     was_made = false;
     return cached_lattice(of, with, root.string(), [&](double) { was_made = true; });
   }
-  MeshLattice ask() { return ask(mesh, wish); }
+  MeshLattice ask() { return ask(mesh, spec); }
   std::vector<fs::path> files() const {
     std::vector<fs::path> found;
     for (const auto& entry : fs::directory_iterator(folder)) found.push_back(entry.path());
@@ -60,7 +60,7 @@ class MeshCache : public testing::Test {
   }
 
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 20, 10), "torus");
-  LatticeWish wish;
+  LatticeSpec spec;
   fs::path root, folder;  // of the cache, and of the lattices in it
   bool was_made = false;
 };
@@ -76,14 +76,14 @@ void expect_same(const MeshLattice& a, const MeshLattice& b) {
 }
 
 TEST_F(MeshCache, GivesTheSameToTheBitWithoutMakingIt) {
-  std::vector<LatticeWish> wishes(5, wish);
-  wishes[1].bits = 16;
-  wishes[2].spacing.reset();
-  wishes[2].tolerance = 2e-3;
-  wishes[3] = wishes[2];
-  wishes[3].most_bytes = 6'000;  // halves, and not fine enough
-  wishes[4].margin = 8e-3;
-  for (const LatticeWish& each : wishes) {
+  std::vector<LatticeSpec> specs(5, spec);
+  specs[1].bits = 16;
+  specs[2].spacing.reset();
+  specs[2].tolerance = 2e-3;
+  specs[3] = specs[2];
+  specs[3].most_bytes = 6'000;  // halves, and not fine enough
+  specs[4].margin = 8e-3;
+  for (const LatticeSpec& each : specs) {
     const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, each), made = ask(mesh, each);
     EXPECT_TRUE(was_made);
     expect_same(plain, made);
@@ -91,27 +91,27 @@ TEST_F(MeshCache, GivesTheSameToTheBitWithoutMakingIt) {
     EXPECT_FALSE(was_made);
     expect_same(made, again);
   }
-  EXPECT_EQ(files().size(), wishes.size());
-  EXPECT_TRUE(ask(mesh, wishes[3]).at_limit);
-  EXPECT_TRUE(ask(mesh, wishes[3]).lattice.halves);
+  EXPECT_EQ(files().size(), specs.size());
+  EXPECT_TRUE(ask(mesh, specs[3]).at_limit);
+  EXPECT_TRUE(ask(mesh, specs[3]).lattice.halves);
 }
 
 TEST_F(MeshCache, EveryPartOfTheWishAndEveryVertexCounts) {
-  const auto is_new = [&](const CheckedMesh& of, const LatticeWish& with) {
+  const auto is_new = [&](const CheckedMesh& of, const LatticeSpec& with) {
     ask(of, with);
     return was_made;
   };
-  EXPECT_TRUE(is_new(mesh, wish));
-  LatticeWish other = wish;
+  EXPECT_TRUE(is_new(mesh, spec));
+  LatticeSpec other = spec;
   other.spacing = 20.001e-3;
   EXPECT_TRUE(is_new(mesh, other));
-  other = wish;
+  other = spec;
   other.margin = 1e-6;
   EXPECT_TRUE(is_new(mesh, other));
-  other = wish;
+  other = spec;
   other.bits = 16;
   EXPECT_TRUE(is_new(mesh, other));
-  other = wish;
+  other = spec;
   other.spacing.reset();
   other.tolerance = 3e-3;
   EXPECT_TRUE(is_new(mesh, other));
@@ -123,57 +123,57 @@ TEST_F(MeshCache, EveryPartOfTheWishAndEveryVertexCounts) {
   EXPECT_TRUE(is_new(mesh, other));
   CheckedMesh moved = mesh;
   moved.mesh.vertices[77][1] += 1e-9;
-  EXPECT_TRUE(is_new(moved, wish));
+  EXPECT_TRUE(is_new(moved, spec));
   CheckedMesh turned = mesh;
   std::swap(turned.mesh.triangles[5][0], turned.mesh.triangles[5][1]);
-  EXPECT_TRUE(is_new(turned, wish));
-  EXPECT_FALSE(is_new(mesh, wish));
+  EXPECT_TRUE(is_new(turned, spec));
+  EXPECT_FALSE(is_new(mesh, spec));
 }
 
 TEST_F(MeshCache, WhatDoesNotChangeTheLatticeDoesNotCount) {
   const MeshLattice given = ask();
-  wish.threads = 1;
-  wish.tolerance = 1e-9;
-  wish.most_bytes = 1u << 22;
-  wish.bits = 32;
+  spec.threads = 1;
+  spec.tolerance = 1e-9;
+  spec.most_bytes = 1u << 22;
+  spec.bits = 32;
   expect_same(given, ask());
   EXPECT_FALSE(was_made);
-  wish.spacing.reset();
-  wish.tolerance = 2e-3;
+  spec.spacing.reset();
+  spec.tolerance = 2e-3;
   const MeshLattice chosen = ask();
   EXPECT_TRUE(was_made);
   EXPECT_FALSE(chosen.at_limit);
   const std::size_t words = chosen.lattice.words->size();
   for (const std::size_t most : {4 * words, 8 * words, std::size_t{1} << 30}) {  // any memory that holds it
-    wish.most_bytes = most;
-    wish.bits = most == 4 * words ? std::optional<int>(32) : std::nullopt;
+    spec.most_bytes = most;
+    spec.bits = most == 4 * words ? std::optional<int>(32) : std::nullopt;
     expect_same(chosen, ask());
     EXPECT_FALSE(was_made) << most;
   }
 }
 
 TEST_F(MeshCache, MemoryThatDecidesCounts) {
-  wish.spacing.reset();
-  wish.tolerance = 2e-3;
+  spec.spacing.reset();
+  spec.tolerance = 2e-3;
   const std::size_t words = ask().lattice.words->size();
-  wish.most_bytes = 8 * words - 4;
+  spec.most_bytes = 8 * words - 4;
   EXPECT_TRUE(ask().lattice.halves);
   EXPECT_TRUE(was_made);
-  wish.most_bytes = words;
+  spec.most_bytes = words;
   EXPECT_TRUE(ask().at_limit);
   EXPECT_TRUE(was_made);
-  wish.most_bytes = words - 400;
+  spec.most_bytes = words - 400;
   EXPECT_LE(4 * ask().lattice.words->size(), words - 400);
   EXPECT_TRUE(was_made);
-  wish.bits = 32;  // good enough, but coarser than what more memory begins with
-  wish.most_bytes = 2 * words;
+  spec.bits = 32;  // good enough, but coarser than what more memory begins with
+  spec.most_bytes = 2 * words;
   EXPECT_TRUE(ask().at_limit);
-  wish.most_bytes = 4 * words;
+  spec.most_bytes = 4 * words;
   EXPECT_EQ(ask().lattice.words->size(), words);
   EXPECT_FALSE(was_made);
-  wish.most_bytes = 100;
+  spec.most_bytes = 100;
   EXPECT_THROW(ask(), Error);
-  wish.spacing = 1e-6;
+  spec.spacing = 1e-6;
   EXPECT_THROW(ask(), Error);
 }
 
@@ -214,12 +214,12 @@ TEST_F(MeshCache, ATruncatedOrForeignFileIsMadeAgain) {
     EXPECT_EQ(file_text(file), whole);
   }
   // another's lattice under this one's name
-  wish.margin = 5e-3;
+  spec.margin = 5e-3;
   ask();
   for (const fs::path& other : files()) {
     if (other != file) fs::rename(other, file);
   }
-  wish.margin = 0;
+  spec.margin = 0;
   expect_same(made, ask());
   EXPECT_TRUE(was_made);
   // a folder under this one's name stays
@@ -231,11 +231,11 @@ TEST_F(MeshCache, ATruncatedOrForeignFileIsMadeAgain) {
 }
 
 TEST_F(MeshCache, AFolderThatCannotBeWrittenCostsNothing) {
-  const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, wish);
-  expect_same(plain, cached_lattice(mesh, wish, "/proc/nonexistent"));
+  const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, spec);
+  expect_same(plain, cached_lattice(mesh, spec, "/proc/nonexistent"));
   write(folder / "file", "not a folder");
-  expect_same(plain, cached_lattice(mesh, wish, (folder / "file").string()));
-  expect_same(plain, cached_lattice(mesh, wish, (folder / "file" / "below").string()));
+  expect_same(plain, cached_lattice(mesh, spec, (folder / "file").string()));
+  expect_same(plain, cached_lattice(mesh, spec, (folder / "file" / "below").string()));
 }
 
 TEST_F(MeshCache, AFolderThatMayOnlyBeReadIsRead) {
@@ -249,14 +249,14 @@ TEST_F(MeshCache, IsKeptWhereTheUserKeepsSuchThings) {
   const ScopedVariable home("HOME", folder.c_str());
   {
     const ScopedVariable cache("XDG_CACHE_HOME", (folder / "xdg").c_str());
-    cached_lattice(mesh, wish);
+    cached_lattice(mesh, spec);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "xdg/wholehand/grids"), {}), 1);
   }
   const ScopedVariable cache("XDG_CACHE_HOME", nullptr);
-  cached_lattice(mesh, wish);
+  cached_lattice(mesh, spec);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / ".cache/wholehand/grids"), {}), 1);
   const ScopedVariable nowhere("HOME", nullptr);
-  EXPECT_FALSE(cached_lattice(mesh, wish).lattice.words->empty());
+  EXPECT_FALSE(cached_lattice(mesh, spec).lattice.words->empty());
 }
 
 // Files without contents, which take no room on the disk, fill the cache up.
@@ -282,18 +282,18 @@ TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
   fs::last_write_time(foreign, now - hours(100));
   ask();  // not read for longest until now
   EXPECT_FALSE(was_made);
-  wish.margin = 1e-7;  // as large; both fit beside the others to within a byte
+  spec.margin = 1e-7;  // as large; both fit beside the others to within a byte
   ask();
   EXPECT_TRUE(fs::exists(oldest));
   EXPECT_FALSE(fs::exists(left_over));
   EXPECT_TRUE(fs::exists(begun));
-  wish.margin = 2e-7;
+  spec.margin = 2e-7;
   ask();
   EXPECT_FALSE(fs::exists(oldest));
   for (const fs::path& file : {used, old, begun, foreign}) EXPECT_TRUE(fs::exists(file)) << file;
   fs::resize_file(old, DEFAULT_CACHE_BYTES + 1);
   fs::last_write_time(old, now + hours(1));  // and a clock that was wrong
-  wish.margin = 3e-7;
+  spec.margin = 3e-7;
   ask();
   EXPECT_EQ(files().size(), 3u);  // all lattices but the new one have gone
   ask();
@@ -308,7 +308,7 @@ TEST_F(MeshCache, TheBoundIsTheUsers) {
   write(pipelines, "");
   fs::resize_file(pipelines, MEBIBYTE - size);
   fs::last_write_time(files().at(0), fs::file_time_type::clock::now() - std::chrono::hours(1));  // clocks of files are coarse
-  wish.margin = 1e-7;                                                                            // as large
+  spec.margin = 1e-7;                                                                            // as large
   {
     const ScopedVariable one("WHOLEHAND_CACHE_MIB", "1");
     ask();
@@ -321,7 +321,7 @@ TEST_F(MeshCache, TheBoundIsTheUsers) {
     const ScopedVariable none("WHOLEHAND_CACHE_MIB", "0");
     ask();
     EXPECT_TRUE(was_made) << "what is there is not read";
-    wish.margin = 2e-7;
+    spec.margin = 2e-7;
     ask();
     EXPECT_EQ(files().size(), 1u) << "nothing is written, nothing removed";
   }
@@ -330,12 +330,12 @@ TEST_F(MeshCache, TheBoundIsTheUsers) {
 }
 
 TEST_F(MeshCache, ManyAtOnceDoNoHarm) {
-  const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, wish);
+  const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, spec);
   std::vector<std::jthread> others;
   for (int t = 0; t < 4; ++t) {
     others.emplace_back([&] {
       for (int i = 0; i < 10; ++i) {
-        expect_same(plain, cached_lattice(mesh, wish, root.string()));
+        expect_same(plain, cached_lattice(mesh, spec, root.string()));
         std::error_code ignored;
         for (const fs::path& file : files()) {
           if (i % 3 == 0 && file.extension() == ".grid") fs::remove(file, ignored);
@@ -354,7 +354,7 @@ TEST_F(MeshCache, TheKeyIsThatOfTrianglesAndLattice) {
   EXPECT_EQ(keys.begin()->size(), 32u);
   EXPECT_EQ(keys.begin()->find_first_not_of("0123456789abcdef"), std::string::npos);
   const CheckedMesh same = check_mesh(torus(0.05, 0.02, 20, 10), "another name");
-  keys.insert(mesh_key(same, lattice_of_mesh(MeshDistance(same), same, wish).lattice));
+  keys.insert(mesh_key(same, lattice_of_mesh(MeshDistance(same), same, spec).lattice));
   EXPECT_EQ(keys.size(), 1u);
   for (int part = 0; part < 8; ++part) {
     PreparedLattice other = lattice;

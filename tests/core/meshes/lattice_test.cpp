@@ -38,11 +38,11 @@ TEST(MeshLattice, SamplesAreDistancesWhereTheyShouldBe) {
   const CheckedMesh mesh = check_mesh(placed_mesh(torus(0.05, 0.02, 60, 30), {0.3, 0, 0}, {0.01, 0.02, 0.03}), "torus");
   const MeshDistance distance(mesh);
   for (const bool halves : {false, true}) {
-    LatticeWish wish;
-    wish.spacing = 5e-3;
-    wish.margin = 8e-3;
-    wish.bits = halves ? 16 : 32;
-    const PreparedLattice lattice = lattice_of_mesh(distance, mesh, wish).lattice;
+    LatticeSpec spec;
+    spec.spacing = 5e-3;
+    spec.margin = 8e-3;
+    spec.bits = halves ? 16 : 32;
+    const PreparedLattice lattice = lattice_of_mesh(distance, mesh, spec).lattice;
     EXPECT_EQ(lattice.spacing, 5e-3);
     EXPECT_EQ(lattice.halves, halves);
     const core_f64::Vessel vessel = kernel_lattice(lattice);
@@ -64,9 +64,9 @@ TEST(MeshLattice, SamplesAreDistancesWhereTheyShouldBe) {
 TEST(MeshLattice, AnOpenMeshKeepsItsSides) {
   const CheckedMesh mesh = check_mesh(open_hemisphere(0.05, 4), "bowl");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.spacing = 6e-3;
-  const core_f64::Vessel vessel = kernel_lattice(lattice_of_mesh(distance, mesh, wish).lattice);
+  LatticeSpec spec;
+  spec.spacing = 6e-3;
+  const core_f64::Vessel vessel = kernel_lattice(lattice_of_mesh(distance, mesh, spec).lattice);
   EXPECT_NEAR(core_f64::lattice_distance(vessel, {0, 0.03, 0}), -0.02, 1e-3);
   EXPECT_NEAR(core_f64::lattice_distance(vessel, {0, 0.055, 0}), 0.005, 1e-3);
 }
@@ -75,10 +75,10 @@ TEST(MeshLattice, AnOpenMeshKeepsItsSides) {
 double band_error(const TriangleMesh& triangles, double spacing, const std::function<double(const Triple&)>& exact) {
   const CheckedMesh mesh = check_mesh(triangles, "body");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.spacing = spacing;
-  wish.margin = 5e-3;
-  const core_f64::Vessel vessel = kernel_lattice(lattice_of_mesh(distance, mesh, wish).lattice);
+  LatticeSpec spec;
+  spec.spacing = spacing;
+  spec.margin = 5e-3;
+  const core_f64::Vessel vessel = kernel_lattice(lattice_of_mesh(distance, mesh, spec).lattice);
   Random random(10);
   double largest = 0;
   for (int i = 0; i < 100'000; ++i) {
@@ -117,29 +117,29 @@ TEST(MeshLattice, ASphereAndATorusAtSecondOrder) {
 TEST(MeshLattice, FloatsUpToHalfOfTheMemoryThenHalvesThenNothing) {
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.spacing = 10e-3;
+  LatticeSpec spec;
+  spec.spacing = 10e-3;
   for (const double margin : {0.0, 7e-3}) {  // an even and an odd number of samples
-    wish.bits.reset();
-    wish.most_bytes = 1u << 20;
-    wish.margin = margin;
-    const PreparedLattice roomy = lattice_of_mesh(distance, mesh, wish).lattice;
+    spec.bits.reset();
+    spec.most_bytes = 1u << 20;
+    spec.margin = margin;
+    const PreparedLattice roomy = lattice_of_mesh(distance, mesh, spec).lattice;
     const std::size_t samples = static_cast<std::size_t>(roomy.nx) * roomy.ny * roomy.nz, half_words = (samples + 1) / 2;
     EXPECT_EQ(samples % 2, margin > 0 ? 1u : 0u);
     EXPECT_FALSE(roomy.halves);
     const auto made = [&](std::size_t most_bytes) {
-      wish.most_bytes = most_bytes;
-      return lattice_of_mesh(distance, mesh, wish).lattice;
+      spec.most_bytes = most_bytes;
+      return lattice_of_mesh(distance, mesh, spec).lattice;
     };
     EXPECT_FALSE(made(8 * samples).halves);
     EXPECT_TRUE(made(8 * samples - 1).halves);
     EXPECT_EQ(made(8 * samples - 1).words->size(), half_words);
     EXPECT_TRUE(made(4 * half_words).halves);
     EXPECT_THROW(made(4 * half_words - 1), Error);
-    wish.bits = 32;
+    spec.bits = 32;
     EXPECT_FALSE(made(4 * samples).halves);
     EXPECT_THROW(made(4 * samples - 1), Error);
-    wish.bits = 16;
+    spec.bits = 16;
     EXPECT_TRUE(made(1u << 20).halves);
     EXPECT_TRUE(made(4 * half_words).halves);
     EXPECT_THROW(made(4 * half_words - 1), Error);
@@ -151,12 +151,12 @@ TEST(MeshLattice, HalvesCostTheirRoundingAndSaySo) {
   const CheckedMesh mesh = check_mesh(turned_mesh(beaker2(), 60, 3e-3), "flask");
   const MeshDistance distance(mesh);
   for (const double spacing : {3.5e-3, 5e-3}) {
-    LatticeWish wish;
-    wish.spacing = spacing;
-    wish.bits = 32;
-    const double floats = lattice_of_mesh(distance, mesh, wish).error;
-    wish.bits = 16;
-    const double halves = lattice_of_mesh(distance, mesh, wish).error;
+    LatticeSpec spec;
+    spec.spacing = spacing;
+    spec.bits = 32;
+    const double floats = lattice_of_mesh(distance, mesh, spec).error;
+    spec.bits = 16;
+    const double halves = lattice_of_mesh(distance, mesh, spec).error;
     EXPECT_NE(halves, floats);
     EXPECT_NEAR(halves, floats, std::sqrt(3.0) * spacing / 2048);
   }
@@ -165,12 +165,12 @@ TEST(MeshLattice, HalvesCostTheirRoundingAndSaySo) {
 TEST(MeshLattice, AChosenSpacingGoesOverToHalves) {
   const CheckedMesh mesh = check_mesh(turned_mesh(beaker1(), 60, 5e-3), "beaker");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.tolerance = 2e-3;
-  const MeshLattice floats = lattice_of_mesh(distance, mesh, wish);
+  LatticeSpec spec;
+  spec.tolerance = 2e-3;
+  const MeshLattice floats = lattice_of_mesh(distance, mesh, spec);
   EXPECT_FALSE(floats.lattice.halves);
-  wish.most_bytes = 8 * floats.lattice.words->size() - 4;
-  const MeshLattice halves = lattice_of_mesh(distance, mesh, wish);
+  spec.most_bytes = 8 * floats.lattice.words->size() - 4;
+  const MeshLattice halves = lattice_of_mesh(distance, mesh, spec);
   EXPECT_TRUE(halves.lattice.halves);
   EXPECT_EQ(halves.lattice.spacing, floats.lattice.spacing);
   EXPECT_LE(halves.error, 2e-3);
@@ -179,42 +179,42 @@ TEST(MeshLattice, AChosenSpacingGoesOverToHalves) {
 TEST(MeshLattice, TheSpacingIsChosenByTheErrorAtTheSurface) {
   const CheckedMesh mesh = check_mesh(turned_mesh(beaker3(), 120, 2e-3), "flask");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.tolerance = 1e-3;
-  const MeshLattice chosen = lattice_of_mesh(distance, mesh, wish);
+  LatticeSpec spec;
+  spec.tolerance = 1e-3;
+  const MeshLattice chosen = lattice_of_mesh(distance, mesh, spec);
   EXPECT_LE(chosen.error, 1e-3);
   EXPECT_GT(chosen.error, 0.3e-3);  // not much finer than was asked for
-  wish.spacing = 2 * chosen.lattice.spacing;
-  EXPECT_GT(lattice_of_mesh(distance, mesh, wish).error, 1e-3);
+  spec.spacing = 2 * chosen.lattice.spacing;
+  EXPECT_GT(lattice_of_mesh(distance, mesh, spec).error, 1e-3);
 }
 
 TEST(MeshLattice, StaysWithinItsMemory) {
   const CheckedMesh mesh = check_mesh(turned_mesh(beaker1(), 60, 5e-3), "beaker");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.tolerance = 1e-9;
+  LatticeSpec spec;
+  spec.tolerance = 1e-9;
   for (const std::size_t most : {2000u, 20'000u, 200'000u}) {
-    wish.most_bytes = most;
-    const MeshLattice finest = lattice_of_mesh(distance, mesh, wish);
+    spec.most_bytes = most;
+    const MeshLattice finest = lattice_of_mesh(distance, mesh, spec);
     EXPECT_TRUE(finest.lattice.halves);
     EXPECT_LE(4 * finest.lattice.words->size(), most);
     EXPECT_GT(4 * finest.lattice.words->size(), most / 1.25) << most;  // the counts are whole numbers
     EXPECT_GT(finest.error, 1e-9);
   }
-  wish.most_bytes = 100;
-  EXPECT_THROW(lattice_of_mesh(distance, mesh, wish), Error);
+  spec.most_bytes = 100;
+  EXPECT_THROW(lattice_of_mesh(distance, mesh, spec), Error);
 }
 
 TEST(MeshLattice, ARefusedSpacingNamesTheFinestThatFits) {
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.most_bytes = 1u << 20;
-  wish.spacing = 1e-12;
-  EXPECT_THROW(lattice_of_mesh(distance, mesh, wish), Error);
-  wish.spacing = 0.5e-3;
+  LatticeSpec spec;
+  spec.most_bytes = 1u << 20;
+  spec.spacing = 1e-12;
+  EXPECT_THROW(lattice_of_mesh(distance, mesh, spec), Error);
+  spec.spacing = 0.5e-3;
   try {
-    lattice_of_mesh(distance, mesh, wish);
+    lattice_of_mesh(distance, mesh, spec);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::usage);
@@ -222,38 +222,38 @@ TEST(MeshLattice, ARefusedSpacingNamesTheFinestThatFits) {
     EXPECT_NE(line.find("a lattice of 0.5 mm has 6,904,125 samples of 2 bytes, and 1 MB are free for them"), std::string::npos)
         << line;
     ASSERT_NE(line.find(words), std::string::npos) << line;
-    wish.spacing = 1e-3 * std::stod(line.substr(line.find(words) + words.size()));
+    spec.spacing = 1e-3 * std::stod(line.substr(line.find(words) + words.size()));
   }
-  EXPECT_NO_THROW(lattice_of_mesh(distance, mesh, wish));
-  *wish.spacing *= 0.99;
-  EXPECT_THROW(lattice_of_mesh(distance, mesh, wish), Error);
+  EXPECT_NO_THROW(lattice_of_mesh(distance, mesh, spec));
+  *spec.spacing *= 0.99;
+  EXPECT_THROW(lattice_of_mesh(distance, mesh, spec), Error);
 }
 
 // 65504 / 1024 m is the largest half.
 TEST(MeshLattice, DistancesBeyondHalvesAreKeptOrCut) {
   const CheckedMesh mesh = check_mesh(box_mesh({0, 0, 0}, {200, 200, 200}), "box");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.spacing = 20;
-  wish.most_bytes = 16'000;
+  LatticeSpec spec;
+  spec.spacing = 20;
+  spec.most_bytes = 16'000;
   const auto middle = [&] {
-    return core_f64::lattice_distance(kernel_lattice(lattice_of_mesh(distance, mesh, wish).lattice), {100, 100, 100});
+    return core_f64::lattice_distance(kernel_lattice(lattice_of_mesh(distance, mesh, spec).lattice), {100, 100, 100});
   };
   EXPECT_EQ(middle(), -100);
-  wish.bits = 16;
+  spec.bits = 16;
   EXPECT_EQ(middle(), -65504.0 / 1024);
 }
 
 TEST(MeshLattice, IsTheSameOnAnyNumberOfThreads) {
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.spacing = 7.3e-3;
-  wish.bits = 16;
-  wish.threads = 1;
-  const MeshLattice one = lattice_of_mesh(distance, mesh, wish);
-  wish.threads = 5;
-  const MeshLattice five = lattice_of_mesh(distance, mesh, wish);
+  LatticeSpec spec;
+  spec.spacing = 7.3e-3;
+  spec.bits = 16;
+  spec.threads = 1;
+  const MeshLattice one = lattice_of_mesh(distance, mesh, spec);
+  spec.threads = 5;
+  const MeshLattice five = lattice_of_mesh(distance, mesh, spec);
   EXPECT_EQ(*one.lattice.words, *five.lattice.words);
   EXPECT_EQ(one.error, five.error);
 }
@@ -261,13 +261,13 @@ TEST(MeshLattice, IsTheSameOnAnyNumberOfThreads) {
 TEST(MeshLattice, TellsHowFarItIs) {
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
   const MeshDistance distance(mesh);
-  LatticeWish wish;
-  wish.tolerance = 1e-3;  // many rows, of which this thread takes some beside two others
+  LatticeSpec spec;
+  spec.tolerance = 1e-3;  // many rows, of which this thread takes some beside two others
   const auto here = std::this_thread::get_id();
   for (const int threads : {1, 3}) {
-    wish.threads = threads;
+    spec.threads = threads;
     std::vector<double> shares;
-    lattice_of_mesh(distance, mesh, wish, [&](double share) {
+    lattice_of_mesh(distance, mesh, spec, [&](double share) {
       EXPECT_EQ(std::this_thread::get_id(), here);
       shares.push_back(share);
     });
@@ -279,24 +279,24 @@ TEST(MeshLattice, TellsHowFarItIs) {
   const auto give_up = [](double share) {
     if (share > 0) throw failure_error("enough");
   };
-  EXPECT_THROW(lattice_of_mesh(distance, mesh, wish, give_up), Error);
+  EXPECT_THROW(lattice_of_mesh(distance, mesh, spec, give_up), Error);
 }
 
 TEST(MeshLattice, SurfacesWithinAnotherBodyAreNoError) {
   const CheckedMesh mesh = check_mesh(joined(icosphere(0.05, 5), icosphere(0.02, 4)), "ball in a ball");
-  LatticeWish wish;
-  wish.spacing = 2e-3;
+  LatticeSpec spec;
+  spec.spacing = 2e-3;
   // a cell across the outer sphere is off by spacing^2 / (8 x 50 mm) = 10 um, an edge of chords as much again; on the inner one,
   // where the sign does not change, by up to half a cell
-  EXPECT_LT(lattice_of_mesh(MeshDistance(mesh), mesh, wish).error, 5e-5);
+  EXPECT_LT(lattice_of_mesh(MeshDistance(mesh), mesh, spec).error, 5e-5);
 }
 
 TEST(MeshLattice, OverlappingBodiesEncloseTheirUnion) {
   const auto enclosed = [](const TriangleMesh& triangles, double spacing) {
     const CheckedMesh mesh = check_mesh(triangles, "bodies");
-    LatticeWish wish;
-    wish.spacing = spacing;
-    return enclosed_volume(lattice_of_mesh(MeshDistance(mesh), mesh, wish).lattice, mesh.facts.area);
+    LatticeSpec spec;
+    spec.spacing = spacing;
+    return enclosed_volume(lattice_of_mesh(MeshDistance(mesh), mesh, spec).lattice, mesh.facts.area);
   };
   // 360 and 120 cm3 that share 80; a cell at each of the 1.5 m of edges is off by a part of its section: 1.5 m x 0.3 mm2 = 0.1 %
   const EnclosedVolume boxes =
@@ -319,25 +319,25 @@ TEST(MeshLattice, TheForecastIsTheRateTimesTheWork) {
 // By a clock that says how long the rows took: whatever the machine does meanwhile.
 TEST(MeshLattice, RowsAreTimedBeforeTheSamplesAreTaken) {
   const CheckedMesh mesh = check_mesh(icosphere(0.05, 2), "ball");
-  LatticeWish wish;
-  wish.spacing = 5e-3;
-  wish.threads = 2;
-  const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, wish);
+  LatticeSpec spec;
+  spec.spacing = 5e-3;
+  spec.threads = 2;
+  const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, spec);
   for (const double step : {4.0, 0.0}) {
-    double now = 100, told = -1;
+    double now = 100, announced = -1;
     bool has_begun = false;
     LatticeForecast forecast;
     forecast.clock = [&] { return now += step; };
     forecast.say = [&](const PreparedLattice& lattice, double seconds) {
       EXPECT_FALSE(has_begun);
-      EXPECT_EQ(told, -1) << "once";
+      EXPECT_EQ(announced, -1) << "once";
       EXPECT_EQ(lattice.ny, plain.lattice.ny);
-      told = seconds;
+      announced = seconds;
     };
     const MeshLattice made = lattice_of_mesh(
-        MeshDistance(mesh), mesh, wish, [&](double share) { has_begun = share > 0; }, forecast);
+        MeshDistance(mesh), mesh, spec, [&](double share) { has_begun = share > 0; }, forecast);
     // two rows, one a thread, took 4 s by that clock
-    EXPECT_EQ(told, step / 2 * plain.lattice.ny * plain.lattice.nz);
+    EXPECT_EQ(announced, step / 2 * plain.lattice.ny * plain.lattice.nz);
     EXPECT_EQ(*made.lattice.words, *plain.lattice.words) << "timing changes no sample";
   }
 }

@@ -75,7 +75,7 @@ TEST(Person, HandsHaveTheMomentsOfTheSurvey) {
     const int s = person.sex == Sex::female ? 0 : 1;
     length[s].add(person.hand.length);
     breadth[s].add(person.hand.breadth);
-    strength[s].add(of(person.traits, Trait::strength));
+    strength[s].add(person.traits[Trait::strength]);
     products[s] += person.hand.length * person.hand.breadth;
   }
   EXPECT_NEAR(length[0].count, PEOPLE / 2, 5 * std::sqrt(PEOPLE / 4.0));
@@ -140,10 +140,10 @@ TEST(Person, SharesAreThoseOfTheDistributions) {
   EXPECT_EQ(person.sex, Sex::female);
   EXPECT_NEAR(person.hand.length, 175.80453084215713e-3, 1e-12);
   EXPECT_NEAR(person.hand.breadth, 77.80153155954513e-3, 1e-12);
-  EXPECT_NEAR(of(person.traits, Trait::height), -0.0058913486350103995, 1e-12);
-  EXPECT_NEAR(of(person.traits, Trait::reaction), 0.06748718022052226, 1e-12);
-  EXPECT_NEAR(of(person.traits, Trait::finger_stiffness), 697.660094733661, 1e-8);
-  EXPECT_NEAR(of(person.traits, Trait::finger_mass), 0.03104052754869622, 1e-12);
+  EXPECT_NEAR(person.traits[Trait::height], -0.0058913486350103995, 1e-12);
+  EXPECT_NEAR(person.traits[Trait::reaction], 0.06748718022052226, 1e-12);
+  EXPECT_NEAR(person.traits[Trait::finger_stiffness], 697.660094733661, 1e-8);
+  EXPECT_NEAR(person.traits[Trait::finger_mass], 0.03104052754869622, 1e-12);
 }
 
 TEST(Person, IsTheSameForAnyOrderAndAnyNumberOfThreads) {
@@ -171,7 +171,7 @@ TEST(Person, SharesAreDrawnInTheOrderOfTheInputs) {
   EXPECT_TRUE(same(draw_person({}, SEED, 5), make_person({}, draw_shares(SEED, 5))));
   // kept from before the shares could be had alone
   EXPECT_DOUBLE_EQ(draw_person({}, SEED, 5).hand.length, 0.20675875409081088);
-  EXPECT_DOUBLE_EQ(of(draw_person({}, SEED, 5).traits, Trait::strength), 1.0372744470971962);
+  EXPECT_DOUBLE_EQ(draw_person({}, SEED, 5).traits[Trait::strength], 1.0372744470971962);
 }
 
 // 16 % of 109 lb are 77.6 N. Women and men differ by the ratio of their grips.
@@ -249,8 +249,8 @@ TEST(Person, EachSpreadIsItsOwn) {
   const Person before = draw_person(people, SEED, 7);
   people.traits[static_cast<std::size_t>(Trait::roll)] = {0.2, 0, 0};
   const Person after = draw_person(people, SEED, 7);
-  EXPECT_EQ(of(after.traits, Trait::roll), 0.2);
-  EXPECT_EQ(of(draw_grasp(people, after, SEED, 7, 0, 0), Trait::roll), 0.2);
+  EXPECT_EQ(after.traits[Trait::roll], 0.2);
+  EXPECT_EQ(draw_grasp(people, after, SEED, 7, 0, 0)[Trait::roll], 0.2);
   for (std::size_t k = 0; k < TRAIT_COUNT; ++k) {
     if (k != static_cast<std::size_t>(Trait::roll)) {
       EXPECT_EQ(after.traits[k], before.traits[k]);

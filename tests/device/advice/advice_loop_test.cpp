@@ -48,7 +48,7 @@ TEST(AdviceLoop, FollowsTheNewestTick) {
   const AdviceTally tally = loop.tally();
   EXPECT_GE(tally.updates, 2u);
   EXPECT_GE(tally.grips, tally.updates * LEAST_CLOUD);
-  EXPECT_TRUE(loop.news().empty());
+  EXPECT_TRUE(loop.take_warnings().empty());
 }
 
 TEST(AdviceLoop, TellsWhatCannotBeOpenedBeforeItStarts) {
@@ -65,9 +65,9 @@ TEST(AdviceLoop, EndsWithALineWhereItsDeviceFails) {
   loop.look(std::span(record).first(at + 1));
   ASSERT_TRUE(comes([&] { return loop.newest() != nullptr; }));
   loop.look(std::span(record).subspan(at, 1));
-  std::vector<std::string> news;
-  ASSERT_TRUE(comes([&] { return !(news = loop.news()).empty(); }));
-  EXPECT_EQ(news, std::vector<std::string>{"advice: the device is gone; the session goes on without advice"});
+  std::vector<std::string> warnings;
+  ASSERT_TRUE(comes([&] { return !(warnings = loop.take_warnings()).empty(); }));
+  EXPECT_EQ(warnings, std::vector<std::string>{"advice: the device is gone; the session goes on without advice"});
   EXPECT_FALSE(loop.newest()) << "what was advised is no longer of this moment";
   ShownGrip shown;
   shown.vessel = 0;
@@ -154,9 +154,9 @@ TEST(AdviceLoop, SaysWhereItsDeviceHangsAndGoesOnAfterwards) {
   loop.look(std::span(record).subspan(at, 1));
   ASSERT_TRUE(gate->wait_until_in());
   EXPECT_TRUE(comes([&] { return !loop.newest(); }));
-  EXPECT_EQ(loop.news(),
+  EXPECT_EQ(loop.take_warnings(),
             std::vector<std::string>{"advice: the device has not answered for 0.05 s; there is no advice until it does"});
-  EXPECT_TRUE(loop.news().empty());
+  EXPECT_TRUE(loop.take_warnings().empty());
   gate->open();
   ASSERT_TRUE(comes([&] { return loop.newest() && loop.newest()->tick == record[at].number; }));
 }

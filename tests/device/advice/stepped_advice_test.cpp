@@ -108,16 +108,16 @@ TEST(SteppedAdvice, IsEndedByADeviceThatFails) {
       ASSERT_FALSE(advice.newest() || is_new) << tick.number;
       continue;
     }
-    const std::vector<std::string> news = advice.news();
-    if (news.empty()) continue;
+    const std::vector<std::string> warnings = advice.take_warnings();
+    if (warnings.empty()) continue;
     is_ended = true;
-    EXPECT_EQ(news, std::vector<std::string>{"advice: the device is gone; the session goes on without advice"});
+    EXPECT_EQ(warnings, std::vector<std::string>{"advice: the device is gone; the session goes on without advice"});
     EXPECT_FALSE(advice.newest());
     EXPECT_TRUE(is_new);
     EXPECT_EQ(grip.vessel, -1);
   }
   EXPECT_TRUE(was_advised && is_ended);
-  EXPECT_TRUE(advice.news().empty());
+  EXPECT_TRUE(advice.take_warnings().empty());
   EXPECT_EQ(advice.tally().updates, 5u);
 }
 

@@ -101,7 +101,7 @@ TEST(HidGripper, PanicLeavesNoForce) {
 TEST(HidGripper, ASecondThreadTakesTheForceAway) {
   MockBench bench;
   HidMock mock(bench);
-  check_let_go_meanwhile(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
+  check_release_from_watchdog(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 
 TEST(HidGripper, ForceThatIsNotTakenIsAnError) {
@@ -110,7 +110,7 @@ TEST(HidGripper, ForceThatIsNotTakenIsAnError) {
   const auto gripper = open_hid(mock.node(), PATIENT_WATCHDOG);
   mock.misbehave(Mischief::takes_no_force);
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
-  EXPECT_STREQ(gripper->trouble(), "it takes no force");
+  EXPECT_STREQ(gripper->last_error(), "it takes no force");
 }
 
 TEST(HidGripper, OldReportsAreNotTakenForNew) {

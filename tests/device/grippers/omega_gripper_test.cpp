@@ -64,7 +64,7 @@ TEST_F(OmegaGripperTest, NoForceBeforeTheFirstGoodRead) {
   GripperState state;
   EXPECT_TRUE(gripper->write({}));
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
-  EXPECT_STREQ(gripper->trouble(), "no force before the first good read");
+  EXPECT_STREQ(gripper->last_error(), "no force before the first good read");
   EXPECT_FALSE(gripper->write({{}, 1}));
 
   sdk->codes["dhdGetGripperGap"] = -1;
@@ -154,7 +154,7 @@ TEST_F(OmegaGripperTest, PositiveCodesAreNoErrors) {
     GripperState state;
     EXPECT_EQ(gripper->read(state, 0), ReadOutcome::value) << code;
     EXPECT_TRUE(gripper->write({{1, 0, 0}, 1})) << code;
-    EXPECT_STREQ(gripper->trouble(), "") << code;
+    EXPECT_STREQ(gripper->last_error(), "") << code;
   }
 }
 
@@ -170,16 +170,16 @@ TEST_F(OmegaGripperTest, ReadErrorsCarryTheSdksWords) {
                                         std::pair{"dhdGetGripperFingerPos", "finger not read: device unplugged"}}) {
     sdk->codes = {{function, -1}};
     EXPECT_EQ(gripper->read(state, 1), ReadOutcome::error);
-    EXPECT_STREQ(gripper->trouble(), words);
+    EXPECT_STREQ(gripper->last_error(), words);
     EXPECT_EQ(state.gap, 0.5) << "left alone";
     EXPECT_EQ(state.sequence, 1u);
   }
   // the words stay, whatever becomes of the SDK's
-  const std::string before = gripper->trouble();
+  const std::string before = gripper->last_error();
   sdk->error = std::string(1000, 'x');
-  EXPECT_EQ(gripper->trouble(), before);
+  EXPECT_EQ(gripper->last_error(), before);
   EXPECT_EQ(gripper->read(state, 2), ReadOutcome::error);
-  EXPECT_EQ(std::string(gripper->trouble()).size(), 159u);
+  EXPECT_EQ(std::string(gripper->last_error()).size(), 159u);
 }
 
 TEST_F(OmegaGripperTest, WriteErrorsCarryTheSdksWords) {
@@ -189,11 +189,11 @@ TEST_F(OmegaGripperTest, WriteErrorsCarryTheSdksWords) {
   sdk->error = "no power";
   sdk->codes = {{"dhdEnableForce", -1}};
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
-  EXPECT_STREQ(gripper->trouble(), "force cannot be enabled: no power");
+  EXPECT_STREQ(gripper->last_error(), "force cannot be enabled: no power");
   EXPECT_TRUE(sdk->forces.empty());
   sdk->codes = {{"dhdSetForceAndTorqueAndGripperForce", -1}};
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
-  EXPECT_STREQ(gripper->trouble(), "force not taken: no power");
+  EXPECT_STREQ(gripper->last_error(), "force not taken: no power");
 }
 
 // The force may be half switched on: zero is written, and the report has the device's answer.
@@ -202,14 +202,14 @@ TEST_F(OmegaGripperTest, AForceThatCannotBeEnabledIsTakenAway) {
     const auto gripper = open();
     GripperState state;
     ASSERT_EQ(gripper->read(state, 0), ReadOutcome::value);
-    EXPECT_EQ(gripper->let_go(), LetGo::nothing);
+    EXPECT_EQ(gripper->release(), ReleaseResult::no_force);
     sdk->forces.clear();
     sdk->codes = {{"dhdEnableForce", -1}};
     EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
     EXPECT_TRUE(sdk->forces.empty());
-    EXPECT_EQ(gripper->panic(), LetGo::not_asked);
+    EXPECT_EQ(gripper->panic(), ReleaseResult::not_attempted);
     if (!is_taken) sdk->codes["dhdSetForceAndTorqueAndGripperForce"] = -1;
-    EXPECT_EQ(gripper->let_go(), is_taken ? LetGo::written : LetGo::not_taken);
+    EXPECT_EQ(gripper->release(), is_taken ? ReleaseResult::written : ReleaseResult::refused);
     if (is_taken) {
       ASSERT_EQ(sdk->forces.size(), 1u);
       EXPECT_EQ(sdk->forces[0], (std::array<double, 7>{}));
@@ -253,7 +253,7 @@ TEST_F(OmegaGripperTest, NotANumberIsNeverWritten) {
   EXPECT_FALSE(gripper->write({{0, NAN, 0}, 0}));
   EXPECT_EQ(sdk->forces.back(), (std::array<double, 7>{}));
   EXPECT_FALSE(gripper->write({{}, INFINITY}));
-  EXPECT_STREQ(gripper->trouble(), "a force that is not a number");
+  EXPECT_STREQ(gripper->last_error(), "a force that is not a number");
   EXPECT_EQ(sdk->forces.size(), 3u);
 }
 

@@ -110,7 +110,7 @@ TEST(OscGripper, AHandThatBearsLessThanItSaidIsAFault) {
     rig.send(osc_hello(numbers));
     EXPECT_FALSE(rig.comes_through(1, 2, 7));
     EXPECT_EQ(rig.read(2), ReadOutcome::error) << "and stays so";
-    EXPECT_STREQ(rig.gripper->trouble(), "the hand says in the session that it bears less force");
+    EXPECT_STREQ(rig.gripper->last_error(), "the hand says in the session that it bears less force");
   }
 }
 
@@ -119,11 +119,11 @@ TEST(OscGripper, ALateHelloThatCannotBeReadIsAFaultWhereItIsTheFirst) {
   OscRig rig({osc_state(1, hand_at(0))});
   rig.send(cut);
   EXPECT_FALSE(rig.comes_through(0, 2, 7));
-  EXPECT_STREQ(rig.gripper->trouble(), "a hello of the hand cannot be read");
-  OscRig told({osc_hello({0, 0.1, 5, 3}), osc_state(1, hand_at(0))});
-  told.send(cut);
-  EXPECT_TRUE(told.comes_through(0, 2, 7)) << "what it bears is known";
-  EXPECT_EQ(told.gripper->remarks().size(), 1u);
+  EXPECT_STREQ(rig.gripper->last_error(), "a hello of the hand cannot be read");
+  OscRig greeted({osc_hello({0, 0.1, 5, 3}), osc_state(1, hand_at(0))});
+  greeted.send(cut);
+  EXPECT_TRUE(greeted.comes_through(0, 2, 7)) << "what it bears is known";
+  EXPECT_EQ(greeted.gripper->notes_for_report().size(), 1u);
 }
 
 // The largest forces are no guess where a hand said something about them.
@@ -203,7 +203,7 @@ TEST(OscGripper, AHandThatIsGoneWhenTheSessionBeginsIsATimeout) {
   for (int k = 0; k < 20; ++k) rig.send(osc_state(2 + k, hand_at(0)));
   rig.gripper->begin();
   EXPECT_EQ(rig.read(0), ReadOutcome::timeout);
-  EXPECT_STREQ(rig.gripper->trouble(), "no new state for 50 ms");
+  EXPECT_STREQ(rig.gripper->last_error(), "no new state for 50 ms");
   OscRig left({osc_state(1, hand_at(0))});
   left.send(osc_message("/wholehand/gripper/bye", "", {}));
   left.gripper->begin();
@@ -289,7 +289,7 @@ TEST(OscGripper, ForcesGoToThePortThatTheHelloNames) {
   const auto heard = ear.hear();
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->force[0], 1);
-  EXPECT_EQ(rig.gripper->let_go(), LetGo::written);
+  EXPECT_EQ(rig.gripper->release(), ReleaseResult::written);
   EXPECT_TRUE(ear.hear()->is_zero());
   EXPECT_FALSE(rig.peer.hear(0.01)) << "only there";
 }
@@ -304,7 +304,7 @@ TEST(OscGripper, NoForceIsBeyondTheHandsLimits) {
   EXPECT_EQ(heard->force[3], -3);
   for (const double none : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_FALSE(rig.gripper->write({{1, none, 0}, 1}));
-    EXPECT_STREQ(rig.gripper->trouble(), "a force that is NaN or infinite");
+    EXPECT_STREQ(rig.gripper->last_error(), "a force that is NaN or infinite");
     const auto nothing = rig.peer.hear();
     ASSERT_TRUE(nothing);
     EXPECT_TRUE(nothing->is_zero());
@@ -317,7 +317,7 @@ TEST(OscGripper, LateAndDoubledStatesAreIgnoredAndCounted) {
   for (const std::int64_t sequence : {10, 9, 1, -5}) rig.send(osc_state(sequence, hand_at(50)));
   ASSERT_TRUE(rig.comes_through(1, 11, 1));
   EXPECT_LT(std::abs(rig.state.position[0]), 1e-12);
-  EXPECT_EQ(rig.gripper->remarks(),
+  EXPECT_EQ(rig.gripper->notes_for_report(),
             std::vector<std::string>{rig.gripper->limits().address + ": states that came late or twice: 4"});
 }
 
@@ -327,7 +327,7 @@ TEST(OscGripper, SequencesGoOnWhereTheyWrap) {
   ASSERT_TRUE(rig.comes_through(1, -0x7FFFFFFF - 1, 1));
   ASSERT_TRUE(rig.comes_through(2, -1, 2));
   ASSERT_TRUE(rig.comes_through(3, 0, 3));
-  EXPECT_TRUE(rig.gripper->remarks().empty());
+  EXPECT_TRUE(rig.gripper->notes_for_report().empty());
 }
 
 TEST(OscGripper, WhatCannotBeReadIsIgnoredAndCounted) {
@@ -342,29 +342,29 @@ TEST(OscGripper, WhatCannotBeReadIsIgnoredAndCounted) {
   rig.send("");
   ASSERT_TRUE(rig.comes_through(1, 2, 1));
   EXPECT_LT(std::abs(rig.state.position[0]), 1e-12);
-  const std::vector<std::string> remarks = rig.gripper->remarks();
-  ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_EQ(remarks[0], rig.gripper->limits().address +
-                            ": datagrams that could not be read: 6, the first of them: a message without an address");
+  const std::vector<std::string> notes = rig.gripper->notes_for_report();
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0], rig.gripper->limits().address +
+                          ": datagrams that could not be read: 6, the first of them: a message without an address");
 }
 
 TEST(OscGripper, OnlyTheFirstIsObeyed) {
   OscRig rig({osc_state(1, hand_at(0))});
   ASSERT_EQ(rig.read(0), ReadOutcome::value);
-  EXPECT_FALSE(rig.gripper->news());
+  EXPECT_FALSE(rig.gripper->take_warning());
   const OscPeer second;
   second.send(osc_state(1000, hand_at(50)), rig.port);
   second.send(osc_message("/wholehand/gripper/bye", "", {}), rig.port);
   ASSERT_TRUE(rig.comes_through(1, 2, 1));
-  std::optional<std::string> news;
+  std::optional<std::string> warning;
   ASSERT_TRUE(rig.reads_until(1, [&] {
-    if (!news) news = rig.gripper->news();
-    return news.has_value() && !rig.gripper->remarks().empty();
+    if (!warning) warning = rig.gripper->take_warning();
+    return warning.has_value() && !rig.gripper->notes_for_report().empty();
   }));
-  EXPECT_EQ(*news, rig.gripper->limits().address + ": 127.0.0.1 port " + std::to_string(second.port()) +
-                       " sends too, and is not obeyed: the hand is 127.0.0.1 port " + std::to_string(rig.peer.port()) +
-                       ", which came first");
-  EXPECT_FALSE(rig.gripper->news()) << "once";
+  EXPECT_EQ(*warning, rig.gripper->limits().address + ": 127.0.0.1 port " + std::to_string(second.port()) +
+                          " sends too, and is not obeyed: the hand is 127.0.0.1 port " + std::to_string(rig.peer.port()) +
+                          ", which came first");
+  EXPECT_FALSE(rig.gripper->take_warning()) << "once";
   EXPECT_LT(std::abs(rig.state.position[0]), 1e-12);
   EXPECT_FALSE(rig.gripper->is_done());
   ASSERT_TRUE(rig.gripper->write({{1, 0, 0}, 0}));
@@ -377,16 +377,16 @@ TEST(OscGripper, OtherThreadsMayAskAndLetGo) {
   OscRig rig({osc_state(1, hand_at(0))});
   const OscPeer second;
   std::atomic<bool> is_over{false};
-  std::atomic<int> told{0};
+  std::atomic<int> warnings{0};
   std::thread asking([&] {
     while (!is_over) {
-      told += rig.gripper->news().has_value();
-      rig.gripper->remarks();
+      warnings += rig.gripper->take_warning().has_value();
+      rig.gripper->notes_for_report();
     }
-    told += rig.gripper->news().has_value();
+    warnings += rig.gripper->take_warning().has_value();
   });
   std::thread letting_go([&] {
-    while (!is_over) EXPECT_EQ(rig.gripper->let_go_meanwhile(), LetGo::written);
+    while (!is_over) EXPECT_EQ(rig.gripper->release_from_watchdog(), ReleaseResult::written);
   });
   for (std::int64_t tick = 0; tick < 2000; ++tick) {
     if (tick % 10 == 0) rig.send(osc_state(2 + tick, hand_at(0)));
@@ -398,7 +398,7 @@ TEST(OscGripper, OtherThreadsMayAskAndLetGo) {
   is_over = true;
   asking.join();
   letting_go.join();
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(warnings, 1);
 }
 
 TEST(OscGripper, SilenceOf50MillisecondsIsATimeout) {
@@ -406,7 +406,7 @@ TEST(OscGripper, SilenceOf50MillisecondsIsATimeout) {
   for (std::int64_t tick = 0; tick <= 50; ++tick) ASSERT_EQ(rig.read(tick), ReadOutcome::value) << tick;
   const GripperState before = rig.state;
   EXPECT_EQ(rig.read(51), ReadOutcome::timeout);
-  EXPECT_STREQ(rig.gripper->trouble(), "no new state for 50 ms");
+  EXPECT_STREQ(rig.gripper->last_error(), "no new state for 50 ms");
   EXPECT_EQ(rig.state.sequence, before.sequence) << "left alone";
 }
 
@@ -425,9 +425,9 @@ TEST(OscGripper, OnlyANewStateEndsTheSilence) {
   // all of it came: a new state as a sign, and the counts
   ASSERT_TRUE(rig.comes_through(52, 2, 1));
   const std::string place = rig.gripper->limits().address;
-  ASSERT_TRUE(
-      rig.reads_until(52, [&] { return rig.gripper->remarks().back() == place + ": datagrams of others than the hand: 51"; }));
-  EXPECT_EQ(rig.gripper->remarks(),
+  ASSERT_TRUE(rig.reads_until(
+      52, [&] { return rig.gripper->notes_for_report().back() == place + ": datagrams of others than the hand: 51"; }));
+  EXPECT_EQ(rig.gripper->notes_for_report(),
             (std::vector<std::string>{
                 place + ": datagrams that could not be read: 51, the first of them: a message without an address",
                 place + ": states that came late or twice: 51", place + ": datagrams of others than the hand: 51"}));
@@ -469,8 +469,8 @@ LoopReport run_session(OscRig& rig, double seconds, const std::function<void(std
       return outcome;
     }
     bool write(const GripperForce& force) noexcept override { return rig_.gripper->write(force); }
-    LetGo let_go() noexcept override { return rig_.gripper->let_go(); }
-    const char* trouble() const noexcept override { return rig_.gripper->trouble(); }
+    ReleaseResult release() noexcept override { return rig_.gripper->release(); }
+    const char* last_error() const noexcept override { return rig_.gripper->last_error(); }
     bool is_done() const noexcept override { return rig_.gripper->is_done(); }
     void show(const Tick& tick) noexcept override { rig_.gripper->show(tick); }
 
@@ -507,9 +507,9 @@ TEST(OscGripper, WhateverIsWrongEndsInNoForce) {
       if (tick < 100 && tick % 10 == 0) rig.send(osc_state(2 + tick, hand_at(0)));
       if (tick == 100) rig.send(said_last);
     });
-    EXPECT_EQ(report.fault, fault) << FAULT_NAMES[static_cast<std::size_t>(report.fault)] << report.trouble;
+    EXPECT_EQ(report.fault, fault) << FAULT_NAMES[static_cast<std::size_t>(report.fault)] << report.error;
     EXPECT_LT(report.last.number, 160);
-    EXPECT_EQ(report.let_go, LetGo::written);
+    EXPECT_EQ(report.release, ReleaseResult::written);
     const HeardForce last = rig.peer.hear_until([](const HeardForce& heard) { return heard.number == 0; });
     EXPECT_TRUE(last.is_zero());
     EXPECT_EQ(last.state, static_cast<int>(SessionState::released));
@@ -552,7 +552,7 @@ TEST(OscGripper, ABeakerIsGraspedBySixtyStatesASecond) {
       rig.send(osc_state(++sequence, script.at(tick)));
       next += 1.0 / rate;
     });
-    EXPECT_EQ(report.fault, Fault::none) << rate << report.trouble;
+    EXPECT_EQ(report.fault, Fault::none) << rate << report.error;
     EXPECT_EQ(report.last.grasps, 1) << rate;
     // which closes and tilts slowly: what the hand is behind changes little
     EXPECT_NEAR(most, largest_grip(scene, script), 0.02 * PAPER_GRIP) << rate;
@@ -584,7 +584,7 @@ TEST(OscGripper, AByeEndsTheSessionWithoutAFault) {
     if (tick % 10 == 0) rig.send(osc_state(2 + tick, hand_at(0)));
     if (tick == 50) rig.send(osc_message("/wholehand/gripper/bye", "", {}));
   });
-  EXPECT_EQ(report.fault, Fault::none) << report.trouble;
+  EXPECT_EQ(report.fault, Fault::none) << report.error;
   EXPECT_LT(report.last.number, 1000);
   EXPECT_TRUE(rig.peer.hear_until([](const HeardForce& heard) { return heard.number == 0; }).is_zero());
 }
@@ -611,7 +611,7 @@ TEST(OscGripper, EveryWayOutSendsZero) {
   {
     OscRig rig({osc_state(1, hand_at(0))});
     start(rig);
-    EXPECT_EQ(rig.gripper->let_go(), LetGo::written);
+    EXPECT_EQ(rig.gripper->release(), ReleaseResult::written);
     expect_zero(rig, 6, 3);
   }
   {
@@ -623,11 +623,11 @@ TEST(OscGripper, EveryWayOutSendsZero) {
   {
     OscRig rig({osc_state(1, hand_at(0))});
     start(rig);
-    EXPECT_EQ(rig.gripper->let_go_meanwhile(), LetGo::written);
+    EXPECT_EQ(rig.gripper->release_from_watchdog(), ReleaseResult::written);
     expect_zero(rig, -1, 1);
     EXPECT_TRUE(rig.gripper->write({{1, 2, 3}, 4})) << "a session goes on after the second thread's";
     EXPECT_FALSE(rig.peer.hear()->is_zero());
-    EXPECT_EQ(rig.gripper->panic(), LetGo::written);
+    EXPECT_EQ(rig.gripper->panic(), ReleaseResult::written);
     expect_zero(rig, 6, 3);
     EXPECT_TRUE(rig.gripper->write({{1, 2, 3}, 4}));
     EXPECT_TRUE(rig.peer.hear()->is_zero()) << "after a panic there is no force";
@@ -706,7 +706,7 @@ TEST(OscGripper, AnAddressThatOthersReachIsSaidAndRemarked) {
   EXPECT_EQ(lines, (std::vector<std::string>{open, place + ": waiting for a hand, 10 s at most",
                                              place + ": the hand is 127.0.0.1 port " + std::to_string(peer.port()) +
                                                  ", without a hello; so it has to bear 12 N at the arm and 8 N on each finger"}));
-  EXPECT_EQ(gripper->remarks(), std::vector<std::string>{open});
+  EXPECT_EQ(gripper->notes_for_report(), std::vector<std::string>{open});
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ TEST(UsbGripper, PanicLeavesNoForce) {
 TEST(UsbGripper, ASecondThreadTakesTheForceAway) {
   MockBench bench;
   UsbMock mock(bench);
-  check_let_go_meanwhile(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
+  check_release_from_watchdog(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
 }
 
 // One force is under way to a device that takes none, and another waits. `before`: what had arrived until then.
@@ -140,7 +140,7 @@ TEST(UsbGripper, AForceThatWaitedDoesNotFollowTheZeroOfAnotherThread) {
     std::size_t before = 0;
     leave_a_force_waiting(mock, *gripper, state, before);
     mock.misbehave(Mischief::none);
-    EXPECT_EQ(is_panic ? gripper->panic() : gripper->let_go_meanwhile(), LetGo::written);
+    EXPECT_EQ(is_panic ? gripper->panic() : gripper->release_from_watchdog(), ReleaseResult::written);
     for (int k = 0; k < 10; ++k) ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
     EXPECT_EQ(mock.outputs().size(), before + 2) << "the one under way and the zero";
     EXPECT_TRUE(is_nothing(mock.outputs().back()));
@@ -159,7 +159,7 @@ TEST(UsbGripper, ForceThatIsNotTakenIsAnError) {
   mock.misbehave(Mischief::takes_no_force);
   for (int i = 0; i < 11; ++i) ASSERT_TRUE(gripper->write({{1, 0, 0}, 0})) << i;
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
-  EXPECT_STREQ(gripper->trouble(), "it takes no force");
+  EXPECT_STREQ(gripper->last_error(), "it takes no force");
 }
 
 TEST(UsbGripper, OldReportsAreNotTakenForNew) {

@@ -69,7 +69,7 @@ TEST(Gains, NoUsualUserShakesAtTheLimit) {
     loop.finger_stiffness = 200;
     loop.reaction = reaction * 1e-3;
     loop.k_open = 0.9 * limit;
-    EXPECT_TRUE(dies_away(loop)) << reaction;
+    EXPECT_TRUE(decays(loop)) << reaction;
     EXPECT_LT(limit, sampled_k_open(loop));
   }
 }

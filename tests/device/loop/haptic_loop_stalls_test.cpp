@@ -209,10 +209,10 @@ TEST(HapticLoop, TheWatchTakesTheForceAwayMeanwhile) {
     ASSERT_GT(after, 0u);
     EXPECT_FALSE(is_zero(run.gripper.written[after - 1]));
     EXPECT_TRUE(is_zero(run.gripper.written[after]));
-    const auto news = watch.news();
-    ASSERT_TRUE(news);
-    EXPECT_EQ(*news, "a call of the device did not return within 12 ms; meanwhile zero force was written");
-    EXPECT_FALSE(watch.news()) << "once";
+    const auto warning = watch.take_warning();
+    ASSERT_TRUE(warning);
+    EXPECT_EQ(*warning, "a call of the device did not return within 12 ms; meanwhile zero force was written");
+    EXPECT_FALSE(watch.take_warning()) << "once";
   }
 }
 
@@ -220,7 +220,7 @@ TEST(HapticLoop, TheWatchTakesTheForceAwayMeanwhile) {
 // the zero in its place.
 TEST(HapticLoop, TheWatchActsOnNoCallThatHasReturned) {
   ScriptedGripper gripper;
-  int told = 0;
+  int reports = 0;
   // each on a processor of its own, as far as there are two: else the one would stall while the other checks
   cpu_set_t before;
   ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
@@ -240,7 +240,7 @@ TEST(HapticLoop, TheWatchActsOnNoCallThatHasReturned) {
     for (double moment = start; moment < start + (gripper.meanwhiles > 0 ? 1 : 60); moment = monotonic_now()) {
       watch.enter(moment - 1000);
       for (int k = 0; k < 4; ++k) monotonic_now();
-      told += watch.leave();
+      reports += watch.leave();
       watch.enter(moment + 1000);
       for (int k = 0; k < 4; ++k) monotonic_now();
       watch.leave();
@@ -248,7 +248,7 @@ TEST(HapticLoop, TheWatchActsOnNoCallThatHasReturned) {
   }
   sched_setaffinity(0, sizeof before, &before);
   EXPECT_GT(gripper.meanwhiles, 0);
-  EXPECT_GE(told, gripper.meanwhiles);
+  EXPECT_GE(reports, gripper.meanwhiles);
 }
 
 }  // namespace

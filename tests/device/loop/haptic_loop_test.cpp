@@ -55,7 +55,7 @@ TEST(HapticLoop, FollowsDictatedTicks) {
   LoopRig run;
   std::vector<std::int64_t> recorded;
   for (std::int64_t n = 0; n < 900; ++n) recorded.push_back(n + n / 10);
-  run.gripper.dictate = [&]() -> std::int64_t {
+  run.gripper.replay = [&]() -> std::int64_t {
     const std::size_t next = run.gripper.ticks.size();
     return next < recorded.size() ? recorded[next] : -1;
   };
@@ -108,7 +108,7 @@ TEST(HapticLoop, LetsGoOnWhateverIsReadWrongly) {
     const LoopReport report = run.go();
     expect_released(run, report, wrong.fault, 800);
     EXPECT_EQ(run.gripper.written.size(), 801u);  // in the very tick
-    EXPECT_EQ(report.trouble, wrong.name);
+    EXPECT_EQ(report.error, wrong.name);
     EXPECT_EQ(run.gripper.ticks.back(), 800);  // and no further read
   }
 }
@@ -307,12 +307,12 @@ TEST(HapticLoop, TellsWhatBecameOfTheForce) {
     };
     const LoopReport report = run.go();
     EXPECT_EQ(report.fault, Fault::read_error);
-    EXPECT_EQ(report.trouble, "unplugged") << "the read's, whatever failed afterwards";
-    EXPECT_EQ(report.let_go, takes_nothing ? LetGo::not_taken : LetGo::written);
-    EXPECT_EQ(report.let_go_trouble, takes_nothing ? "it takes no force" : "");
+    EXPECT_EQ(report.error, "unplugged") << "the read's, whatever failed afterwards";
+    EXPECT_EQ(report.release, takes_nothing ? ReleaseResult::refused : ReleaseResult::written);
+    EXPECT_EQ(report.release_error, takes_nothing ? "it takes no force" : "");
     EXPECT_TRUE(same_force(report.force, run.gripper.written[799])) << "the last that was taken";
-    const ForceSize noted = run.gripper.noted();
-    EXPECT_EQ(noted.arm, takes_nothing ? std::abs(run.gripper.written[799].arm[0]) : 0);
+    const ForceSize last = run.gripper.last_written_force();
+    EXPECT_EQ(last.arm, takes_nothing ? std::abs(run.gripper.written[799].arm[0]) : 0);
   }
 }
 

@@ -37,8 +37,8 @@ TEST(Histogram, QuantilesAreThoseOfTheSortedTimesToABin) {
     std::sort(times.begin(), times.end());
     for (const double share : {0.0, 0.01, 0.3, 0.5, 0.99, 0.999, 1.0}) {
       const auto rank = static_cast<std::size_t>(std::max(1.0, std::ceil(share * count)));
-      const double exact = times[rank - 1], told = histogram.quantile(share);
-      EXPECT_NEAR(told / exact, 1, HALF_A_BIN * (1 + 1e-6)) << count << " " << share;
+      const double exact = times[rank - 1], reported = histogram.quantile(share);
+      EXPECT_NEAR(reported / exact, 1, HALF_A_BIN * (1 + 1e-6)) << count << " " << share;
     }
     EXPECT_EQ(histogram.largest(), times.back());
     EXPECT_EQ(histogram.quantile(1), times.back());

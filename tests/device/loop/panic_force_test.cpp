@@ -21,24 +21,24 @@ namespace {
 
 // The last force as the loop wrote it, whoever fails.
 TEST(PanicGuard, SaysWhatIsLeftOnADeviceThatTookNothing) {
-  for (const LetGo answer : {LetGo::not_taken, LetGo::not_asked, LetGo::nothing}) {
+  for (const ReleaseResult answer : {ReleaseResult::refused, ReleaseResult::not_attempted, ReleaseResult::no_force}) {
     SharedPanicLog log;
     const PanicOutcome outcome = run_in_child([&] {
       LoggingGripper gripper(*log);
       gripper.answer = answer;
       PanicGuard guard(gripper);
-      gripper.note({{1.2, -1.6, 0}, -2.379});
+      gripper.set_last_written_force({{1.2, -1.6, 0}, -2.379});
       raise(SIGSEGV);
     });
     const std::string left =
         "; the last force was 2 N at the arm and 2.38 N at the fingers; the device's own watchdog takes it away within 20 ms, "
         "state "
         "released; please report it\n";
-    const std::string words = answer == LetGo::not_taken ? "zero force could not be written" + left
-                              : answer == LetGo::not_asked
+    const std::string words = answer == ReleaseResult::refused ? "zero force could not be written" + left
+                              : answer == ReleaseResult::not_attempted
                                   ? "zero force was not written, since the device's library cannot be called now" + left
                                   : "no force is on a device, state released; please report it\n";
-    EXPECT_EQ(outcome.said, "wholehand: live: the program failed (SIGSEGV); " + words);
+    EXPECT_EQ(outcome.error_output, "wholehand: live: the program failed (SIGSEGV); " + words);
     EXPECT_EQ(outcome.code, 3);
   }
 }
@@ -49,7 +49,7 @@ TEST(PanicGuard, TheWatchWritesWhatTheHandlerMustNot) {
     SharedPanicLog log;
     const PanicOutcome outcome = run_in_child([&] {
       LoggingGripper gripper(*log);
-      gripper.answer = LetGo::not_asked;
+      gripper.answer = ReleaseResult::not_attempted;
       CallWatch watch(gripper);
       PanicGuard guard(gripper, &watch);
       gripper.write({{}, 5});
@@ -59,7 +59,7 @@ TEST(PanicGuard, TheWatchWritesWhatTheHandlerMustNot) {
     EXPECT_EQ(outcome.code, 3);
     EXPECT_EQ(log->meanwhiles, 1);
     EXPECT_EQ(log->grip, 0);
-    EXPECT_NE(outcome.said.find("; zero force was written, state released"), std::string::npos) << outcome.said;
+    EXPECT_NE(outcome.error_output.find("; zero force was written, state released"), std::string::npos) << outcome.error_output;
   }
 }
 
@@ -68,22 +68,22 @@ TEST(PanicGuard, AWatchThatIsStuckIsNotWaitedFor) {
   SharedPanicLog log;
   const PanicOutcome outcome = run_in_child([&] {
     LoggingGripper gripper(*log);
-    gripper.answer = LetGo::not_asked;
+    gripper.answer = ReleaseResult::not_attempted;
     gripper.in_meanwhile = [] {
       for (;;) pause();
     };
     CallWatch watch(gripper);
     PanicGuard guard(gripper, &watch);
-    gripper.note({{}, 5});
+    gripper.set_last_written_force({{}, 5});
     raise(SIGSEGV);
   });
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(log->meanwhiles, 1);
-  EXPECT_NE(
-      outcome.said.find("zero force was not written, since the device's library cannot be called now; the last force was 0 N at "
-                        "the arm and 5 N at the fingers"),
-      std::string::npos)
-      << outcome.said;
+  EXPECT_NE(outcome.error_output.find(
+                "zero force was not written, since the device's library cannot be called now; the last force was 0 N at "
+                "the arm and 5 N at the fingers"),
+            std::string::npos)
+      << outcome.error_output;
 }
 
 TEST(PanicGuard, IsGoneWithItsEnd) {

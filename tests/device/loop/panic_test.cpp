@@ -152,7 +152,7 @@ TEST(PanicGuard, LetsGoAtSignalsThatEndTheProcess) {
     EXPECT_EQ(outcome.code, 3) << signal;
     EXPECT_EQ(log->panics, 1) << signal;
     EXPECT_EQ(log->grip, 0) << signal;
-    EXPECT_EQ(outcome.said, "wholehand: live: ended by a signal (" + name + "); zero force was written, state released\n");
+    EXPECT_EQ(outcome.error_output, "wholehand: live: ended by a signal (" + name + "); zero force was written, state released\n");
   }
 }
 
@@ -177,7 +177,7 @@ TEST(PanicGuard, ASecondFailureDoesNotCutTheFirstShort) {
   });
   expect_panic(outcome, *log, "SIGSEGV");
   EXPECT_EQ(log->ended, 1);
-  EXPECT_EQ(line_count(outcome.said), 1);
+  EXPECT_EQ(line_count(outcome.error_output), 1);
 }
 
 TEST(PanicGuard, APanicThatFailsIsGivenUp) {
@@ -209,7 +209,7 @@ TEST(PanicGuard, LetsGoWhenAThreadOfBlockedSignalsFails) {
       }
       other.join();
     });
-    EXPECT_EQ(outcome.code, 3) << signal << outcome.said;
+    EXPECT_EQ(outcome.code, 3) << signal << outcome.error_output;
     EXPECT_EQ(log->panics, 1) << signal;
   }
 }
@@ -222,7 +222,7 @@ TEST(PanicGuard, WhatWasIgnoredStaysSo) {
     PanicGuard guard(gripper);
     raise(SIGQUIT);
   });
-  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(outcome.code, 0) << outcome.error_output;
   EXPECT_EQ(log->panics, 0);
 }
 
@@ -239,7 +239,7 @@ TEST(PanicGuard, AFileThatGrowsTooLargeEndsNothing) {
     }
     raise(SIGXFSZ);
   });
-  EXPECT_EQ(outcome.code, 1000 + SIGXFSZ) << outcome.said;
+  EXPECT_EQ(outcome.code, 1000 + SIGXFSZ) << outcome.error_output;
   EXPECT_EQ(log->ended, 1);
   EXPECT_EQ(log->panics, 0);
 }
@@ -263,7 +263,8 @@ TEST(PanicGuard, AnExitIsNoWayOutOfASession) {
     EXPECT_EQ(outcome.code, 3);
     EXPECT_EQ(log->grip, 0);
     EXPECT_EQ(log->panics, 1);
-    EXPECT_EQ(outcome.said, "wholehand: live: a library ended the program by exit(0); zero force was written, state released\n");
+    EXPECT_EQ(outcome.error_output,
+              "wholehand: live: a library ended the program by exit(0); zero force was written, state released\n");
   }
 }
 
@@ -275,7 +276,7 @@ TEST(PanicGuard, AnExitAfterItIsAnExit) {
     std::exit(7);
   });
   EXPECT_EQ(outcome.code, 7);
-  EXPECT_EQ(outcome.said, "");
+  EXPECT_EQ(outcome.error_output, "");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@
 namespace wholehand {
 namespace {
 
-bool tells(const std::vector<std::string>& notes, const std::string& words) {
+bool mentions(const std::vector<std::string>& notes, const std::string& words) {
   return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note.find(words) != std::string::npos; });
 }
 
@@ -53,8 +53,8 @@ TEST(Realtime, EitherIsSoOrSaysWhyNot) {
               sched_param parameters{};
               pthread_getschedparam(pthread_self(), &policy, &parameters);
               const bool is_fifo = policy == SCHED_FIFO && parameters.sched_priority >= 50;
-              if (is_fifo == tells(notes, "real-time scheduling")) return 1;
-              if ((locked_kib() > 0) == tells(notes, "memory is not locked")) return 2;
+              if (is_fifo == mentions(notes, "real-time scheduling")) return 1;
+              if ((locked_kib() > 0) == mentions(notes, "memory is not locked")) return 2;
               if (prctl(PR_GET_TIMERSLACK) != 1 && !is_fifo) return 3;  // a real-time thread has none
               return 0;
             }),
@@ -69,7 +69,7 @@ TEST(Realtime, NamesTheRemedyWhereNothingIsPermitted) {
               if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) return 8;
               const auto notes = make_realtime();
               if (notes.size() != 2) return 1;
-              if (!tells(notes, "rtprio") || !tells(notes, "memlock")) return 2;
+              if (!mentions(notes, "rtprio") || !mentions(notes, "memlock")) return 2;
               for (const std::string& note : notes)
                 if (note.find("limits.d") == std::string::npos || note.find('\n') != std::string::npos) return 3;
               return 0;

@@ -257,12 +257,12 @@ TEST(TickPath, AHandOverTheNetworkNeitherAllocatesNorLocks) {
     EXPECT_TRUE(watched([&] { return gripper->write({{1, 2, 3}, 4}); }));
     seen += state.buttons > 0;
   }
-  EXPECT_TRUE(watched([&] { return gripper->let_go() == LetGo::written; }));
-  EXPECT_TRUE(watched([&] { return gripper->panic() == LetGo::written; }));
+  EXPECT_TRUE(watched([&] { return gripper->release() == ReleaseResult::written; }));
+  EXPECT_TRUE(watched([&] { return gripper->panic() == ReleaseResult::written; }));
   EXPECT_EQ(allocations, 0);
   EXPECT_EQ(locks, 0);
   EXPECT_GT(seen, 0) << "they were read: how soon is the system's choice";
-  EXPECT_EQ(gripper->remarks().size(), 2u) << "garbage and strangers";
+  EXPECT_EQ(gripper->notes_for_report().size(), 2u) << "garbage and strangers";
 }
 
 // ---- system calls ----

@@ -29,7 +29,7 @@ TEST(Recorder, WritesDownWhatGoesThroughTheRing) {
   }
   EXPECT_TRUE(recorder.stop(recorded_end()));
   EXPECT_TRUE(recorder.stop({}));
-  EXPECT_FALSE(recorder.trouble());
+  EXPECT_FALSE(recorder.take_error());
   const Recording recording = read_recording(path);
   expect_same_ticks(recording.ticks, ticks);
   ASSERT_TRUE(recording.end);
@@ -44,21 +44,21 @@ TEST(Recorder, GoesOnDrainingWhenTheDiskIsFull) {
   const FileSizeLimit limit(200000);
   TickRing ring(1024);
   Recorder recorder(ring, std::make_unique<RecordingWriter>(path, recorded_info(2)));
-  std::optional<std::string> trouble;
-  std::size_t told = 0;
+  std::optional<std::string> error;
+  std::size_t reports = 0;
   Tick tick;
   for (; tick.number < 10000; ++tick.number) {
     while (!ring.push(tick)) usleep(1000);
-    if (auto news = recorder.trouble()) {
-      trouble = news;
-      ++told;
+    if (auto taken = recorder.take_error()) {
+      error = taken;
+      ++reports;
     }
   }
   EXPECT_FALSE(recorder.stop(recorded_end()));
-  if (recorder.trouble()) ++told;
-  EXPECT_EQ(told, 1u) << "once, and while the session goes on";
-  ASSERT_TRUE(trouble);
-  EXPECT_EQ(*trouble, path + ": recording ended: File too large; it is complete up to here");
+  if (recorder.take_error()) ++reports;
+  EXPECT_EQ(reports, 1u) << "once, and while the session goes on";
+  ASSERT_TRUE(error);
+  EXPECT_EQ(*error, path + ": recording ended: File too large; it is complete up to here");
   EXPECT_EQ(ring.size(), 0u);
   const Recording recording = read_recording(path);
   EXPECT_GT(recording.ticks.size(), 100u);

@@ -75,7 +75,7 @@ TEST(Recording, EndsWhereTheDiskIsFull) {
     RecordingWriter writer(path, recorded_info(2));
     EXPECT_TRUE(writer.append(std::span(ticks).first(20)));
     EXPECT_FALSE(writer.append(std::span(ticks).subspan(20)));
-    EXPECT_EQ(writer.trouble(), path + ": recording ended: File too large; it is complete up to here");
+    EXPECT_EQ(writer.last_error(), path + ": recording ended: File too large; it is complete up to here");
     kept = writer.records();
     EXPECT_GT(kept, 100u) << "what still fits is kept";
     EXPECT_LE(writer.bytes(), 100000u);
@@ -141,7 +141,7 @@ TEST(Recording, WhatAppearsMeanwhileStays) {
   EXPECT_TRUE(writer.append(ticks));
   write_file(path, "a letter");
   EXPECT_FALSE(writer.finish(recorded_end()));
-  EXPECT_EQ(writer.trouble(),
+  EXPECT_EQ(writer.last_error(),
             path + ": another file appeared there during the session, and is not overwritten; the complete recording is " + path +
                 ".partial");
   EXPECT_EQ(file_text(path), "a letter");
@@ -159,7 +159,7 @@ TEST(Recording, APartialFileThatIsTakenAwayIsNotCalledWhole) {
     EXPECT_TRUE(writer.append(std::span(ticks).first(20)));
     std::filesystem::remove(partial);
     EXPECT_FALSE(writer.append(std::span(ticks).subspan(20)));
-    EXPECT_EQ(writer.trouble(),
+    EXPECT_EQ(writer.last_error(),
               path + ": recording ended: " + partial + " was removed or renamed during the session, with all recorded ticks");
     EXPECT_FALSE(writer.finish(recorded_end()));
     EXPECT_FALSE(writer.is_whole());
@@ -171,7 +171,7 @@ TEST(Recording, APartialFileThatIsTakenAwayIsNotCalledWhole) {
   std::filesystem::rename(partial, folder / "mine");
   write_file(partial, "a letter");
   EXPECT_FALSE(writer.finish(recorded_end()));
-  EXPECT_NE(writer.trouble().find("was removed or renamed"), std::string::npos);
+  EXPECT_NE(writer.last_error().find("was removed or renamed"), std::string::npos);
   EXPECT_EQ(file_text(partial), "a letter");
   EXPECT_FALSE(std::filesystem::exists(path));
 }
@@ -184,7 +184,7 @@ TEST(Recording, APartialFileThatIsCutIsNotCalledWhole) {
   EXPECT_TRUE(writer.append(std::span(ticks).first(20)));
   std::filesystem::resize_file(path + ".partial", writer.bytes() - 9 * writer.record_size() - 5);
   EXPECT_FALSE(writer.append(std::span(ticks).subspan(20))) << "nothing behind a gap";
-  EXPECT_NE(writer.trouble().find(".partial was cut to "), std::string::npos) << writer.trouble();
+  EXPECT_NE(writer.last_error().find(".partial was cut to "), std::string::npos) << writer.last_error();
   writer.finish(recorded_end());
   const Recording recording = read_recording(path);
   expect_same_ticks(recording.ticks, {ticks.begin(), ticks.begin() + 10});

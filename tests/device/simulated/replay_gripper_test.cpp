@@ -39,7 +39,7 @@ TEST(ReplayGripper, SaysAgainWhatWasRead) {
   GripperState state;
   for (const std::int64_t number : {0, 1}) {
     EXPECT_FALSE(gripper->is_done());
-    ASSERT_EQ(gripper->dictated_tick(), number);
+    ASSERT_EQ(gripper->replayed_tick(), number);
     ASSERT_EQ(gripper->read(state, number), ReadOutcome::value);
     EXPECT_EQ(state.gap, number == 0 ? 0.01 : 0.02);
     EXPECT_EQ(state.position[2], state.gap + 3);
@@ -48,7 +48,7 @@ TEST(ReplayGripper, SaysAgainWhatWasRead) {
     EXPECT_TRUE(gripper->write({}));
   }
   EXPECT_TRUE(gripper->is_done());
-  EXPECT_EQ(gripper->dictated_tick(), -1);
+  EXPECT_EQ(gripper->replayed_tick(), -1);
   EXPECT_EQ(gripper->read(state, 2), ReadOutcome::timeout);
   EXPECT_EQ(state.sequence, 1u) << "left alone";
 }
@@ -57,7 +57,7 @@ TEST(ReplayGripper, DictatesTheNumbersThatWereRecorded) {
   const auto gripper = make_replay({recorded(3, 0), recorded(4, 0), recorded(9, 0)}, some_limits());
   GripperState state;
   for (const std::int64_t number : {3, 4, 9}) {
-    ASSERT_EQ(gripper->dictated_tick(), number);
+    ASSERT_EQ(gripper->replayed_tick(), number);
     EXPECT_EQ(gripper->read(state, number), ReadOutcome::value);
   }
 }
@@ -86,11 +86,11 @@ TEST(ReplayGripper, FailsWhereItFailedThen) {
   EXPECT_EQ(gripper->read(state, 1), ReadOutcome::timeout);
   EXPECT_EQ(gripper->read(state, 2), ReadOutcome::error);
   EXPECT_EQ(state.gap, 0.1) << "left alone";
-  EXPECT_NE(std::string(gripper->trouble()), "");
+  EXPECT_NE(std::string(gripper->last_error()), "");
   EXPECT_TRUE(gripper->write({}));
   EXPECT_EQ(gripper->read(state, 3), ReadOutcome::value);
   EXPECT_FALSE(gripper->write({}));
-  EXPECT_EQ(gripper->let_go(), LetGo::nothing) << "there is no device that could keep a force";
+  EXPECT_EQ(gripper->release(), ReleaseResult::no_force) << "there is no device that could keep a force";
   EXPECT_EQ(gripper->read(state, 4), ReadOutcome::value);
   EXPECT_TRUE(gripper->write({}));
 }
@@ -104,7 +104,7 @@ TEST(ReplayGripper, IsDoneWhereTheLoopItselfFailed) {
     GripperState state;
     EXPECT_EQ(gripper->read(state, 0), ReadOutcome::value);
     EXPECT_EQ(gripper->is_done(), is_of_loop) << FAULT_NAMES[k];
-    EXPECT_EQ(gripper->dictated_tick(), is_of_loop ? -1 : 1) << FAULT_NAMES[k];
+    EXPECT_EQ(gripper->replayed_tick(), is_of_loop ? -1 : 1) << FAULT_NAMES[k];
   }
 }
 

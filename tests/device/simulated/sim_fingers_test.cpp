@@ -30,8 +30,8 @@ struct Pinch {
   void run(double seconds, double force) {
     const double end = time + seconds;
     for (; time < end; time += PERIOD) {
-      const bool presses = touched >= 0 && time - touched > of(traits, Trait::reaction);
-      const auto late = static_cast<std::size_t>(of(traits, Trait::reaction) / PERIOD);
+      const bool presses = touched >= 0 && time - touched > traits[Trait::reaction];
+      const auto late = static_cast<std::size_t>(traits[Trait::reaction] / PERIOD);
       if (presses) {
         fingers.press(force, forces[forces.size() - std::min(late, forces.size())], load);
       } else {
@@ -59,7 +59,7 @@ TEST(SimFingers, DoNotWindUp) {
     for (int k = 0; k < 20000; ++k) {
       fingers.press(12, opening > 0 ? MOST : BASE, 0);
       fingers.advance(opening > 0 ? MOST : BASE, 0, 0);
-      ASSERT_LT(fingers.place(), RANGE + 12 / of(traits, Trait::finger_stiffness) + INERTIA) << opening << ' ' << k;
+      ASSERT_LT(fingers.place(), RANGE + 12 / traits[Trait::finger_stiffness] + INERTIA) << opening << ' ' << k;
     }
   }
 }
@@ -71,7 +71,7 @@ TEST(SimFingers, PressWhatThePersonWantsWithinTheResponse) {
     pinch.run(1.5, wanted);
     ASSERT_GE(pinch.touched, 0);
     const auto at = [&pinch](double since) { return pinch.forces[static_cast<std::size_t>(since / PERIOD)]; };
-    const double done = of(pinch.traits, Trait::reaction) + of(pinch.traits, Trait::response);
+    const double done = pinch.traits[Trait::reaction] + pinch.traits[Trait::response];
     // the fingers lag behind their held place by their damping over their stiffness, 10 ms: five of these later nothing of it is
     // left
     EXPECT_NEAR(at(done + 0.05), wanted, 0.1 * wanted) << "and an eighth of the fingers' speed at the touch is not foreseen";
@@ -110,7 +110,7 @@ TEST(SimFingers, GiveWayByTheirStiffness) {
     fingers.go(0.01, 0);
     fingers.advance(2, 0, 0);
   }
-  EXPECT_NEAR(fingers.place(), 0.01 - 2 / of(traits, Trait::finger_stiffness), 1e-9);
+  EXPECT_NEAR(fingers.place(), 0.01 - 2 / traits[Trait::finger_stiffness], 1e-9);
 }
 
 // Trembling and wandering are shares of the force that is wanted, through the stiffness of fingers and nothing else.
@@ -127,7 +127,7 @@ TEST(SimFingers, TrembleByAShareOfTheForce) {
     }
     return fingers.place();
   };
-  const double calm = rest(0, 0), k = of(traits, Trait::finger_stiffness);
+  const double calm = rest(0, 0), k = traits[Trait::finger_stiffness];
   EXPECT_NEAR(rest(1, 0) - calm, 0.4 / k, 1e-9);
   EXPECT_NEAR(rest(0, 1) - calm, 0.8 / k, 1e-9);
 }

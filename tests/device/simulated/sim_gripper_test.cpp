@@ -75,7 +75,7 @@ TEST(SimGripper, CompletesTheTaskOfTheShippedScene) {
     const SimSession session = play(scene, seed);
     const Tick& last = session.report.last;
     EXPECT_EQ(session.report.fault, Fault::none);
-    EXPECT_EQ(session.report.let_go, LetGo::nothing) << "there is no device";
+    EXPECT_EQ(session.report.release, ReleaseResult::no_force) << "there is no device";
     EXPECT_EQ(last.state, SessionState::released) << "the user is done before the time is over";
     EXPECT_TRUE(last.task_done);
     EXPECT_EQ(last.grasps, 4);

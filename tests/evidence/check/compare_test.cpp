@@ -365,8 +365,8 @@ TEST_F(CompareEfforts, FindASafeTiltThatIsAnother) {
   const auto [wrong, all] = outside("force beyond safe", [&](GatheredPlanes& planes, std::size_t i) {
     double& safe = real(planes, FIELD_SAFE_TILT, 0, i);
     if (!plausible(i) || std::isnan(safe) || safe == scene_.tilts.front()) return;
-    const auto told = std::find(scene_.tilts.begin(), scene_.tilts.end(), safe);
-    safe = *(told - 1);
+    const auto listed = std::find(scene_.tilts.begin(), scene_.tilts.end(), safe);
+    safe = *(listed - 1);
     ++changed;
   });
   EXPECT_GT(changed, 10u);

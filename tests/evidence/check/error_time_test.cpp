@@ -32,7 +32,7 @@ TEST(ErrorTime, FiguresAreNearestRanks) {
     errors.push_back((k * 7) % 2001);
     where.push_back(std::to_string(k));
   }
-  const ErrorFigures figures = figures_of(errors, where);
+  const ErrorFigures figures = error_figures(errors, where);
   EXPECT_EQ(figures.median, 1000);
   EXPECT_EQ(figures.p999, 1998);
   EXPECT_EQ(figures.max, 2000);
@@ -41,19 +41,19 @@ TEST(ErrorTime, FiguresAreNearestRanks) {
 }
 
 TEST(ErrorTime, FiguresTakeWhatIsNoNumberForTheWorst) {
-  const ErrorFigures figures = figures_of({1, std::numeric_limits<double>::quiet_NaN(), 2}, {"a", "b", "c"});
+  const ErrorFigures figures = error_figures({1, std::numeric_limits<double>::quiet_NaN(), 2}, {"a", "b", "c"});
   EXPECT_EQ(figures.median, 2);
   EXPECT_TRUE(std::isinf(figures.max));
   EXPECT_EQ(figures.worst, "b");
-  EXPECT_TRUE(std::isnan(figures_of({}, {}).median));
-  EXPECT_EQ(figures_of({3, 3}, {"first", "second"}).worst, "first");
+  EXPECT_TRUE(std::isnan(error_figures({}, {}).median));
+  EXPECT_EQ(error_figures({3, 3}, {"first", "second"}).worst, "first");
 }
 
 ErrorRow row_of(const std::string& name, double microseconds, double micrometers) {
   ErrorRow row;
   row.variant.name = name;
-  row.errors.fill(figures_of({}, {}));
-  row.errors[ERROR_GAP] = figures_of({micrometers}, {"0:0"});
+  row.errors.fill(error_figures({}, {}));
+  row.errors[ERROR_GAP] = error_figures({micrometers}, {"0:0"});
   row.seconds_per_grip = microseconds * 1e-6;
   return row;
 }
@@ -109,9 +109,9 @@ TEST(ErrorTime, WhatDoesNotCompareIsNotChosen) {
   for (ErrorRow& row : rows) {
     row.grips = 2000;
     row.feasible_flips = 2;  // as many as a 99.9th percentile leaves out
-    row.errors[ERROR_FEEDBACK] = figures_of(std::vector<double>(2000, 1e-5), std::vector<std::string>(2000));
+    row.errors[ERROR_FEEDBACK] = error_figures(std::vector<double>(2000, 1e-5), std::vector<std::string>(2000));
   }
-  rows[1].errors.fill(figures_of({}, {}));
+  rows[1].errors.fill(error_figures({}, {}));
   rows[2].feasible_flips = 3;
   rows[3].hold_flips = 3;
   EXPECT_TRUE(std::isnan(rows[1].length_error()) && std::isnan(rows[1].force_error()));
@@ -171,7 +171,7 @@ TEST(ErrorTime, VariantsLeaveOutWhatTheSceneLacks) {
 TEST(ErrorTime, FrontsAreDrawn) {
   std::vector<ErrorRow> rows{row_of("slow 'exact'", 9, 0), row_of("fast <rough>", 1, 50), row_of("middle", 4, 5),
                              row_of("beaten", 8, 50)};
-  rows[1].errors[ERROR_FEEDBACK] = figures_of({1e-3}, {"0:0"});
+  rows[1].errors[ERROR_FEEDBACK] = error_figures({1e-3}, {"0:0"});
   const TemporaryFolder folder;
   const auto pictures = front_pictures(folder.path(), rows, {});
   ASSERT_EQ(pictures.size(), 2u);

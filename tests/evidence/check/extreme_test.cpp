@@ -512,8 +512,8 @@ TEST(Extreme, EverySceneSaysWhatIsHardAndWhatComesOut) {
   for (const auto& [name, look] : LOOKS) {
     const ExtremeCase extreme = extreme_case(extreme_scene(name));
     EXPECT_EQ(extreme.name, name);
-    EXPECT_GT(extreme.hard.size(), 10u) << name;
-    EXPECT_GT(extreme.comes_out.size(), 10u) << name;
+    EXPECT_GT(extreme.stresses.size(), 10u) << name;
+    EXPECT_GT(extreme.expected.size(), 10u) << name;
   }
   Scene silent;
   silent.file = "silent.toml";

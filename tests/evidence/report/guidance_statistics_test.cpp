@@ -54,7 +54,7 @@ TEST(GuidanceStatistics, CountsEveryPointByDefinition) {
     const PointTouch& point = statistics.points[j];
     EXPECT_EQ(static_cast<double>(point.touching), touching);
     if (j == 0) {  // never touches
-      EXPECT_STREQ(words_of(point.correlation.lack), "never");
+      EXPECT_STREQ(lack_words(point.correlation.lack), "never");
       EXPECT_TRUE(std::isnan(point.distance_touching));
       continue;
     }
@@ -90,9 +90,9 @@ TEST(GuidanceStatistics, OfNoGripAndOfEqualDistances) {
   EXPECT_EQ(guidance_statistics({}).grips, 0u);
   EXPECT_TRUE(guidance_statistics({}).bins.empty());
   const GuidanceStatistics equal = guidance_statistics({{0.02, 3, 1}, {0.02, 4, 3}, {0.02, 5, 1}});
-  EXPECT_STREQ(words_of(equal.fingers.lack), "one distance");
-  EXPECT_STREQ(words_of(equal.points[0].correlation.lack), "always");
-  EXPECT_STREQ(words_of(equal.points[1].correlation.lack), "one distance");
+  EXPECT_STREQ(lack_words(equal.fingers.lack), "one distance");
+  EXPECT_STREQ(lack_words(equal.points[0].correlation.lack), "always");
+  EXPECT_STREQ(lack_words(equal.points[1].correlation.lack), "one distance");
   ASSERT_EQ(equal.bins.size(), 1u);
   EXPECT_EQ(equal.bins[0].grips, 3u);
 }

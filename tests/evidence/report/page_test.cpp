@@ -26,9 +26,9 @@
 namespace wholehand {
 namespace {
 
-std::string page_of(const SweptScene& swept, const std::string& trouble = "") {
+std::string page_of(const SweptScene& swept, const std::string& mesh_error = "") {
   SweepResult result(swept.path);
-  return report_page(result, swept.scene, trouble);
+  return report_page(result, swept.scene, mesh_error);
 }
 
 void expect_well_built(const SweptScene& swept, const std::string& page) {

@@ -90,9 +90,9 @@ TEST(AdvisedPerson, TakesABetterGripAndRepeats) {
   EXPECT_LT(one.with.effort, one.without.effort);
   EXPECT_GT(one.with.effort, 0);
   EXPECT_GT(one.with.seconds, one.without.seconds) << "looking takes time";
-  const std::vector<double> numbers = numbers_of(one), again = numbers_of(advised_person(scene, 1, 3, stop));
+  const std::vector<double> numbers = to_numbers(one), again = to_numbers(advised_person(scene, 1, 3, stop));
   EXPECT_EQ(numbers, again);
-  EXPECT_EQ(numbers_of(advised_person_of(numbers)), numbers);
+  EXPECT_EQ(to_numbers(person_from_numbers(numbers)), numbers);
 }
 
 // A session whose advice has ended is none with advice.

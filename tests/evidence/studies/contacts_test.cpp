@@ -225,10 +225,10 @@ TEST(StudyContacts, WhatIsLeftOutChangesNothing) {
         const std::size_t vessel = plan.vessels()[planned.vessel].place;
         const Traits traits = draw_grasp(scene.people, person, 1, number, 0, planned.number);
         GripInput grip = planned.grip;
-        grip.height += of(traits, Trait::height);
-        grip.azimuth += of(traits, Trait::azimuth);
-        grip.obliquity += of(traits, Trait::obliquity);
-        grip.roll += of(traits, Trait::roll);
+        grip.height += traits[Trait::height];
+        grip.azimuth += traits[Trait::azimuth];
+        grip.obliquity += traits[Trait::obliquity];
+        grip.roll += traits[Trait::roll];
         GripResult result;
         core->grip(vessel, grip, result);
         const ContactGrasp& grasp = grasps[pose * plan.grasps().size() + g];

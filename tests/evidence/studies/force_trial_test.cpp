@@ -144,7 +144,7 @@ TEST(ForceTrial, OutcomesSurviveAsNumbers) {
   ForcesOfPerson forces{};
   for (std::size_t k = 0; k < FORCE_CHOICES; ++k)
     forces[k] = {k % 2 == 0, k % 3 == 0, static_cast<int>(k % 4), 1e-3 / static_cast<double>(k + 3), k % 5 == 0};
-  const ForcesOfPerson again = forces_of(numbers_of(forces));
+  const ForcesOfPerson again = forces_from_numbers(to_numbers(forces));
   for (std::size_t k = 0; k < FORCE_CHOICES; ++k) {
     EXPECT_EQ(again[k].has_gripped, forces[k].has_gripped);
     EXPECT_EQ(again[k].has_succeeded, forces[k].has_succeeded);

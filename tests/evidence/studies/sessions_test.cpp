@@ -36,7 +36,7 @@ Scene one_beaker(std::size_t vessel = 1) {
 }
 
 bool same(const std::vector<GraspReport>& a, const std::vector<GraspReport>& b) {
-  const std::vector<double> x = numbers_of({a, 0}), y = numbers_of({b, 0});
+  const std::vector<double> x = to_numbers({a, 0}), y = to_numbers({b, 0});
   if (x.size() != y.size()) return false;
   for (std::size_t k = 0; k < x.size(); ++k)
     if (x[k] != y[k] && !(std::isnan(x[k]) && std::isnan(y[k]))) return false;
@@ -143,7 +143,7 @@ TEST(Sessions, PeopleAtTheEndsOfTheirRangesComeToAnEnd) {
 TEST(Sessions, GraspsSurviveAsNumbers) {
   const std::vector<GraspReport> grasps = sessions_of_person(one_beaker(), 1, 3, GOES_ON).grasps;
   ASSERT_FALSE(grasps.empty());
-  const PersonSessions whole = sessions_of(numbers_of({grasps, 1}));
+  const PersonSessions whole = sessions_from_numbers(to_numbers({grasps, 1}));
   const std::vector<GraspReport>& again = whole.grasps;
   EXPECT_EQ(whole.broken, 1);
   EXPECT_TRUE(same(again, grasps));
@@ -153,8 +153,8 @@ TEST(Sessions, GraspsSurviveAsNumbers) {
   EXPECT_EQ(again[0].before.count, grasps[0].before.count);
   EXPECT_EQ(again[0].spilt, grasps[0].spilt);
   EXPECT_EQ(again[0].after_at_first, grasps[0].after_at_first);
-  // a member that numbers_of leaves out would be lost: 16 numbers, 3 durations, 3 means of 3 numbers, and 3 names
-  EXPECT_EQ(numbers_of({grasps, 0}).size(), 1 + 31 * grasps.size());
+  // a member that to_numbers leaves out would be lost: 16 numbers, 3 durations, 3 means of 3 numbers, and 3 names
+  EXPECT_EQ(to_numbers({grasps, 0}).size(), 1 + 31 * grasps.size());
   EXPECT_EQ(sizeof(GraspReport), 16 * 8 + 3 * 8 + 9 * 8 + 8 + 8u) << "with the names, each padded to a number";
 }
 

@@ -75,7 +75,7 @@ TEST(HoldingLaw, TwoTipsOnABeakerHoldFromTheFormulaOn) {
     HandStrength hand{MU, GAMMA, {}};
     hand.digits.fill(1e3);
     HeldSetup setup = rig_setup(tips, hand, {MASS, center, false});
-    setup.form = form_of(turn < 0 ? convex_pieces(beaker1()) : flat);
+    setup.form = body_form(turn < 0 ? convex_pieces(beaker1()) : flat);
     setup.pairs.clear();
     for (const double share : {1.02, 0.98}) {
       HeldBody body(load_mujoco(), setup);

@@ -44,8 +44,8 @@ TEST(Mujoco, AModelThatItDoesNotTakeIsTroubleInItsWords) {
   try {
     Simulation(load_mujoco(), "<mujoco><worldbody><geom type=\"sphere\" size=\"-1\"/></worldbody></mujoco>");
     FAIL() << "it took the model";
-  } catch (const EngineTrouble& trouble) {
-    EXPECT_NE(std::string(trouble.what()).find("size"), std::string::npos) << trouble.what();
+  } catch (const EngineError& error) {
+    EXPECT_NE(std::string(error.what()).find("size"), std::string::npos) << error.what();
   }
 }
 
@@ -60,8 +60,8 @@ TEST(Mujoco, AModelThatItWarnsOfIsTroubleInItsWords) {
   try {
     load(1);
     FAIL() << "it warned of the model and nobody said so";
-  } catch (const EngineTrouble& trouble) {
-    EXPECT_NE(std::string(trouble.what()).find("contact buffer is full"), std::string::npos) << trouble.what();
+  } catch (const EngineError& error) {
+    EXPECT_NE(std::string(error.what()).find("contact buffer is full"), std::string::npos) << error.what();
   }
 }
 
@@ -71,9 +71,9 @@ TEST(Mujoco, MassesThatItWarnsOfAreTrouble) {
   mjModel& m = simulation.model();
   const double mass = m.body_mass[1];
   m.body_mass[1] = 0;
-  EXPECT_THROW(simulation.set_constants(), EngineTrouble);
+  EXPECT_THROW(simulation.set_constants(), EngineError);
   m.body_mass[1] = mass;
-  EXPECT_THROW(simulation.set_constants(), EngineTrouble);
+  EXPECT_THROW(simulation.set_constants(), EngineError);
   simulation.reset();
   EXPECT_NO_THROW(simulation.set_constants());
 }
@@ -82,14 +82,14 @@ TEST(Mujoco, MassesThatItWarnsOfAreTrouble) {
 TEST(Mujoco, AnErrorOfTheEngineIsTrouble) {
   Simulation simulation(load_mujoco(), "<mujoco><worldbody><body><freejoint/><geom size=\"1\"/></body></worldbody></mujoco>");
   simulation.data().nstack = simulation.data().pstack;  // no room for anything
-  EXPECT_THROW(simulation.step(), EngineTrouble);
+  EXPECT_THROW(simulation.step(), EngineError);
 }
 
 TEST(Mujoco, ANumberThatIsNoneIsTrouble) {
   Simulation simulation(load_mujoco(), "<mujoco><worldbody><body><freejoint/><geom size=\"1\"/></body></worldbody></mujoco>");
   simulation.step();
   simulation.data().qvel[0] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(simulation.step(), EngineTrouble);
+  EXPECT_THROW(simulation.step(), EngineError);
 }
 
 std::vector<core_f64::ContactPoint> four_contacts() {
@@ -114,11 +114,11 @@ TEST(Mujoco, NoContactIsDropped) {
   try {
     body.step();
     FAIL() << "a contact was dropped and nobody said so";
-  } catch (const EngineTrouble& trouble) {
-    EXPECT_NE(std::string(trouble.what()).find("contact"), std::string::npos) << trouble.what();
+  } catch (const EngineError& error) {
+    EXPECT_NE(std::string(error.what()).find("contact"), std::string::npos) << error.what();
   }
   options.most_contacts = 3;  // it has none left when it compiles the model
-  EXPECT_THROW(held_by_four(options), EngineTrouble);
+  EXPECT_THROW(held_by_four(options), EngineError);
 }
 
 // Leaving out distant pairs changes nothing, however fast they approach: the contacts are those of a check of all pairs.

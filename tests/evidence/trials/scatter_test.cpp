@@ -154,18 +154,18 @@ TEST_F(Scatter, EachGripHasItsOwnDeviationsAndTheSeedRepeats) {
 TEST_F(Scatter, OneCaseThatIsNotHeldIsEnough) {
   scene.robust->height = 1e-9;
   const TrialGrip grip = grips_of(0).front();
-  const auto told = [&](const std::vector<TrialReason>& reasons) {
+  const auto outcome_of = [&](const std::vector<TrialReason>& reasons) {
     const GripScatter scatter(
         scene, {}, [&](const Scene&, const Evaluator&, const TrialSettings&) { return std::make_unique<ScriptedEngine>(reasons); });
     return scatter.place(grip, two_cases(), 1, 1).front();
   };
   using enum TrialReason;
-  EXPECT_TRUE(told({none, none}).held);
-  EXPECT_FALSE(told({none, moved}).held);
-  EXPECT_EQ(told({turned, moved}).reason, turned) << "the first";
-  EXPECT_EQ(told({turned, buried}).reason, buried) << "a discarded one says more";
-  EXPECT_EQ(told({overlap, buried}).reason, overlap);
-  EXPECT_FALSE(told({overlap, none}).held);
+  EXPECT_TRUE(outcome_of({none, none}).held);
+  EXPECT_FALSE(outcome_of({none, moved}).held);
+  EXPECT_EQ(outcome_of({turned, moved}).reason, turned) << "the first";
+  EXPECT_EQ(outcome_of({turned, buried}).reason, buried) << "a discarded one says more";
+  EXPECT_EQ(outcome_of({overlap, buried}).reason, overlap);
+  EXPECT_FALSE(outcome_of({overlap, none}).held);
 }
 
 // The robust score of a grip is the one by which a sweep ranks it, of deviations of friction too.

@@ -128,7 +128,7 @@ TEST(TrialStatistics, DifferenceIsPaired) {
 TEST(TrialStatistics, CalibrationCountsEachTrialOnce) {
   const std::vector<EffortTrial> trials{{0, true},  {0.05, true}, {0.1, false}, {0.99, true},    {1, false},
                                         {3, false}, {4, true},    {50, false},  {HUGE_VAL, true}};
-  const std::vector<CalibrationBin> bins = calibration_of(trials);
+  const std::vector<CalibrationBin> bins = calibration_bins(trials);
   std::size_t all = 0;
   for (const CalibrationBin& bin : bins) all += bin.held.of;
   EXPECT_EQ(all, trials.size());

@@ -666,7 +666,7 @@ class Endings(Job):
             self.assertEqual(code, 0, errors)
         self.assert_same("large.nc", "timed.nc")
 
-    def test_the_time_limit_holds_while_the_best_are_told(self):
+    def test_the_time_limit_holds_while_the_best_are_reported(self):
         # robust scores that take longer than the grips
         # a fast machine gets more of them, and a busy one more time for its grips
         counts, seconds, code, errors = [(1500, 20), (4096, 20), (4096, 50)], 1, 0, ""

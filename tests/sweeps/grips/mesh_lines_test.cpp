@@ -154,10 +154,10 @@ TEST(MeshLines, AnOpenBoxShowsItsInside) {
 TEST(MeshLines, WhatIsBeforeAndBehind) {
   const Seen ball(icosphere(0.05, 4));
   const MeshView view(ball.body, ball.edges, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, PIXEL);
-  EXPECT_NEAR(view.cover_of({0, 0, -0.06}), 0.11, 1e-4);
-  EXPECT_NEAR(view.cover_of({0, 0, 0.06}), -0.01, 1e-4);
-  EXPECT_NEAR(view.cover_of({0.03, 0, 0}), 0.04, 2e-4);
-  EXPECT_EQ(view.cover_of({0.06, 0, 0}), DepthMap::NOTHING);
+  EXPECT_NEAR(view.cover_at({0, 0, -0.06}), 0.11, 1e-4);
+  EXPECT_NEAR(view.cover_at({0, 0, 0.06}), -0.01, 1e-4);
+  EXPECT_NEAR(view.cover_at({0.03, 0, 0}), 0.04, 2e-4);
+  EXPECT_EQ(view.cover_at({0.06, 0, 0}), DepthMap::NOTHING);
 }
 
 // Every edge of a crumpled ball is sharp; a raster of small holes has many borders.

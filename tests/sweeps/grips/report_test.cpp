@@ -448,12 +448,12 @@ TEST(GripReport, PlanesGiveWhatTheCoreGives) {
   const GripMethods in_float = backend_grip_methods(cut, [](const Scene& opened, const FieldSet& fields) {
     return std::make_unique<CoreBackend>(make_core_float_evaluator(opened), opened, fields, Precision::single, 1);
   });
-  const GripReport told = make_grip_report(cut, 1, {0.05, 0.7, 0.1, -0.5, 0.002, 1}, scene_axes(cut, 1), in_float);
-  for (const FillTerms& terms : told.answer.score.fills) {
+  const GripReport reported = make_grip_report(cut, 1, {0.05, 0.7, 0.1, -0.5, 0.002, 1}, scene_axes(cut, 1), in_float);
+  for (const FillTerms& terms : reported.answer.score.fills) {
     EXPECT_EQ(terms.safe_tilt, cut.tilts.back());
     EXPECT_TRUE(std::find(cut.tilts.begin(), cut.tilts.end(), terms.peak_tilt) != cut.tilts.end()) << terms.peak_tilt;
   }
-  EXPECT_NE(grip_table(told).find("safe at every tilt, up to 150 deg"), std::string::npos) << grip_table(told);
+  EXPECT_NE(grip_table(reported).find("safe at every tilt, up to 150 deg"), std::string::npos) << grip_table(reported);
   other.fills = {0.9};
   EXPECT_THROW(planes.answer(0, {0.05, 0, 0, 0, 0, 1}, other), Error);
 }

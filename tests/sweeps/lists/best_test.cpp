@@ -85,10 +85,10 @@ TEST(Best, ForcesAreTheWorstOverTheFills) {
 // The end is each fill's own: where tilts are left out, the safe tilt runs over those that count.
 TEST(Best, SafeToTheEndMeansAtEveryTiltThatCounts) {
   const Scene scene = fake_scene();
-  const auto is_safe = [&](std::vector<double> told, const std::vector<double>& last) {
+  const auto is_safe = [&](std::vector<double> reported, const std::vector<double>& last) {
     BestGrip best;
     set_worst(best, scene, last,
-              [&](int field, int fill) { return field == FIELD_SAFE_TILT ? told[static_cast<std::size_t>(fill)] : 0; });
+              [&](int field, int fill) { return field == FIELD_SAFE_TILT ? reported[static_cast<std::size_t>(fill)] : 0; });
     return best.is_safe_to_end;
   };
   const double end = scene.tilts.back(), middle = scene.tilts[1];

@@ -548,15 +548,15 @@ TEST_F(RobustRun, TheFileTheListAndRankTellTheSame) {
   request.apart = scene.output.apart;
   const Ranking ranking = rank_grips(result, scene, plan, request, [&] { return std::make_shared<FakeEvaluator>(scene); });
   ASSERT_EQ(ranking.lists.size(), 2u);
-  int told = 0;
+  int reports = 0;
   for (std::size_t v = 0; v < 2; ++v)
     for (const BestGrip& grip : ranking.lists[v]) {
       const auto found = means.find(grip.candidate.index + 1000 * v);
       if (found == means.end()) continue;
       EXPECT_EQ(grip.robust.mean, found->second);
-      ++told;
+      ++reports;
     }
-  EXPECT_EQ(told, 12);
+  EXPECT_EQ(reports, 12);
   EXPECT_NE(best_table(scene, plan, ranking.lists[0], {3, true}).find("  robust  mean  holds %"), std::string::npos);
 }
 

@@ -69,7 +69,7 @@ std::vector<std::uint64_t> by_hand(const SweptScene& swept, std::size_t vessel, 
   return numbers;
 }
 
-std::vector<std::uint64_t> numbers_of(const std::vector<BestGrip>& grips) {
+std::vector<std::uint64_t> grip_indices(const std::vector<BestGrip>& grips) {
   std::vector<std::uint64_t> numbers;
   for (const BestGrip& grip : grips) numbers.push_back(grip.candidate.index);
   return numbers;
@@ -102,9 +102,9 @@ TEST(Rank, OtherWeightsGiveTheOrderOfTheirSums) {
         {"force=2", {0.02, 0.02, 0.69, 0.02, 2, 0.12}},
         {"hold=0,contacts=.7", {0.02, 0.7, 0.69, 0.02, 0.13, 0}}}) {
     const Ranking ranking = ranked(swept, {text, {}, 40});
-    for (std::size_t v = 0; v < 2; ++v) EXPECT_EQ(numbers_of(ranking.lists[v]), by_hand(swept, v, weights, ANY_GRIP, 40)) << text;
+    for (std::size_t v = 0; v < 2; ++v) EXPECT_EQ(grip_indices(ranking.lists[v]), by_hand(swept, v, weights, ANY_GRIP, 40)) << text;
   }
-  EXPECT_NE(numbers_of(ranked(swept, {"force=2", {}, 40}).lists[0]), numbers_of(ranked(swept, {"", {}, 40}).lists[0]));
+  EXPECT_NE(grip_indices(ranked(swept, {"force=2", {}, 40}).lists[0]), grip_indices(ranked(swept, {"", {}, 40}).lists[0]));
 }
 
 TEST(Rank, OnlyGripsThatMeetTheConditionAreListedAndCounted) {
@@ -113,7 +113,7 @@ TEST(Rank, OnlyGripsThatMeetTheConditionAreListedAndCounted) {
   const auto expect_by_hand = [&](const std::string& where, const std::function<bool(FileValues&, std::uint64_t)>& matches) {
     const Ranking ranking = ranked(swept, {"", {where}, 1000});
     const auto expected = by_hand(swept, 1, own, matches, 1000);
-    EXPECT_EQ(numbers_of(ranking.lists[1]), expected) << where;
+    EXPECT_EQ(grip_indices(ranking.lists[1]), expected) << where;
     EXPECT_EQ(ranking.matching[1], expected.size()) << where;
     EXPECT_EQ(ranking.plausible[1], by_hand(swept, 1, own, ANY_GRIP, 1000).size());
     EXPECT_GT(expected.size(), 0u) << where;
@@ -362,7 +362,7 @@ TEST(Rank, DifferentGripsAreThoseOfTheDefinition) {
           const auto expected = different(swept, v, in_order, 8, apart);
           for (const std::size_t pool : {std::size_t{1}, std::size_t{3}, std::size_t{0}}) {
             const Ranking ranking = ranked(swept, {weights, where, 8, apart, pool});
-            EXPECT_EQ(numbers_of(ranking.lists[v]), expected) << apart << " " << pool;
+            EXPECT_EQ(grip_indices(ranking.lists[v]), expected) << apart << " " << pool;
             EXPECT_EQ(ranking.matching[v], in_order.size()) << "counted in one pass alone";
           }
         }
@@ -376,8 +376,8 @@ TEST(Rank, NearGripsAreLeftOut) {
   const Ranking near = ranked(swept, {"", {}, 8}), apart = ranked(swept, {"", {}, 8, 80e-3, 0});
   for (std::size_t v = 0; v < 2; ++v) {
     ASSERT_FALSE(near.lists[v].empty());
-    EXPECT_EQ(numbers_of(near.lists[v])[0], numbers_of(apart.lists[v])[0]) << "the best is the best";
-    EXPECT_NE(numbers_of(near.lists[v]), numbers_of(apart.lists[v]));
+    EXPECT_EQ(grip_indices(near.lists[v])[0], grip_indices(apart.lists[v])[0]) << "the best is the best";
+    EXPECT_NE(grip_indices(near.lists[v]), grip_indices(apart.lists[v]));
   }
 }
 
@@ -400,7 +400,7 @@ TEST(Rank, WithTheSweepsDistanceItIsTheSweepsOwnList) {
     for (std::size_t v = 0; v < 2; ++v) {
       std::vector<std::uint64_t> own;
       for (const Candidate& candidate : result.best(v)) own.push_back(candidate.index);
-      EXPECT_EQ(numbers_of(ranking.lists[v]), own);
+      EXPECT_EQ(grip_indices(ranking.lists[v]), own);
       EXPECT_FALSE(own.empty());
     }
   }

@@ -160,7 +160,7 @@ TEST_F(AutoBackendTest, WhatIsAskedForByNameIsTaken) {
   AutoBackend named(large_scene(), options_);
   EXPECT_EQ(options_.on, "core");
   EXPECT_EQ(options_.alternative, "");
-  EXPECT_THROW(named.or_on_core([]() -> int { throw failure_error("gone"); }), Error);
+  EXPECT_THROW(named.with_core_fallback([]() -> int { throw failure_error("gone"); }), Error);
 }
 
 TEST_F(AutoBackendTest, WithoutAnyDeviceTheCoreIsTakenAndTheReasonSaid) {
@@ -187,12 +187,13 @@ TEST_F(AutoBackendTest, WhatTheCoreRefusesTooIsNoFaultOfTheDevice) {
   const Scene scene = large_scene();
   AutoBackend chosen(scene, options_);
   ASSERT_EQ(options_.on, "vulkan");
-  EXPECT_EQ(refusal_line([&] { chosen.or_on_core([&] { throw usage_error(options_.on + " refuses it"); }); }), "core refuses it");
+  EXPECT_EQ(refusal_line([&] { chosen.with_core_fallback([&] { throw usage_error(options_.on + " refuses it"); }); }),
+            "core refuses it");
   EXPECT_EQ(notes_, "");
 
   options_.on = ON_AUTO;
   AutoBackend other(scene, options_);
-  EXPECT_EQ(other.or_on_core([&] { return options_.on == "core" ? 7 : throw usage_error("it is too large"); }), 7);
+  EXPECT_EQ(other.with_core_fallback([&] { return options_.on == "core" ? 7 : throw usage_error("it is too large"); }), 7);
   EXPECT_EQ(notes_, "on core, since the device does not work: it is too large\n");
   EXPECT_EQ(options_.alternative, "") << "the note replaces the closing sentence";
 }

@@ -108,7 +108,7 @@ TEST(RunOnADevice, DifferentBestGripsAreThoseOfTheDefinitionAfterABreakToo) {
   options.output = folder / "parts.nc";
   // passes over the grips instead of one over the best of them
   options.pool = 3;
-  options.remembered = 0;
+  options.cached_scores = 0;
   ASSERT_EQ(sweep_on_device(scene, options, true), ExitCode::interrupted);
   ASSERT_FALSE(file_exists(options.output));
   options.resume = true;

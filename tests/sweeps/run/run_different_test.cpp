@@ -80,7 +80,7 @@ TEST_F(RunTest, DifferentBestGripsAreThoseOfTheDefinition) {
               trial.scene.output.keep = {{"gap"}};
             } else {
               trial.scene.output.keep = std::vector<std::string>{};
-              trial.options.remembered = 0;
+              trial.options.cached_scores = 0;
             }
             if (several_hands) trial.scene.grips.hand_scale.values = {1.1, 0.9};
             if (is_sobol) {
@@ -133,7 +133,7 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
     SweepTrial whole(folder / "b.nc");
     whole.scene = quick_choosy_scene();
     whole.options.pool = 1;
-    whole.options.remembered = 0;
+    whole.options.cached_scores = 0;
     whole.before_run = [&] { ++runs; };
     ASSERT_EQ(whole.run().code, ExitCode::done);
     expect_same_list(expected, folder / "b.nc");
@@ -144,7 +144,7 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
       SweepTrial trial(folder / "a.nc");
       trial.scene = quick_choosy_scene();
       trial.options.pool = 1;
-      trial.options.remembered = 0;
+      trial.options.cached_scores = 0;
       int run = 0, chunk = 0;
       trial.before_run = [&] {
         if (++run == stop && at_once) raise(SIGINT);
@@ -158,7 +158,7 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
       SweepTrial rest(folder / "a.nc");
       rest.scene = quick_choosy_scene();
       rest.options.pool = 1;
-      rest.options.remembered = 0;
+      rest.options.cached_scores = 0;
       rest.options.resume = true;
       int runs_of_rest = 0;
       rest.before_run = [&] { ++runs_of_rest; };
@@ -179,7 +179,7 @@ TEST_F(RunTest, FurtherPassesTakeTheScoresOfTheFirst) {
     SweepTrial trial(folder / "a.nc");
     trial.scene = quick_choosy_scene();
     trial.options.pool = 1;
-    trial.options.remembered = static_cast<std::size_t>(room);
+    trial.options.cached_scores = static_cast<std::size_t>(room);
     int runs = 0;
     trial.before_run = [&] { ++runs; };
     ASSERT_EQ(trial.run().code, ExitCode::done);

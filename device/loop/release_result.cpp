@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "device/loop/let_go.h"
+#include "device/loop/release_result.h"
 
 namespace wholehand {
 namespace {
@@ -22,19 +22,19 @@ void add_last(SafeLine& line, const ForceSize& last, double watchdog) noexcept {
 
 }  // namespace
 
-void add_force_words(SafeLine& line, LetGo outcome, const ForceSize& last, double watchdog, std::string_view why) noexcept {
+void add_force_words(SafeLine& line, ReleaseResult outcome, const ForceSize& last, double watchdog, std::string_view why) noexcept {
   switch (outcome) {
-    case LetGo::nothing:
+    case ReleaseResult::no_force:
       line.add("no force is on a device");
       return;
-    case LetGo::written:
+    case ReleaseResult::written:
       line.add("zero force was written");
       return;
-    case LetGo::not_taken:
+    case ReleaseResult::refused:
       line.add("zero force could not be written");
       if (!why.empty()) line.add(" (").add(why).add(")");
       break;
-    case LetGo::not_asked:
+    case ReleaseResult::not_attempted:
       line.add("zero force was not written, since the device's library cannot be called now");
       break;
   }

@@ -9,11 +9,11 @@
 
 namespace wholehand {
 
-enum class LetGo : std::uint8_t {
-  nothing,    // no force was on it: never switched on, or a gripper whose forces go nowhere
-  written,    // the device took zero force
-  not_taken,  // it was asked to take zero force, and did not
-  not_asked,  // its library cannot be called at that moment
+enum class ReleaseResult : std::uint8_t {
+  no_force,       // no force was on it: never switched on, or a gripper whose forces go nowhere
+  written,        // the device took zero force
+  refused,        // it was asked to take zero force, and did not
+  not_attempted,  // its library cannot be called at that moment
 };
 
 // Size of a force for messages, N: its magnitude at the arm and on each finger.
@@ -25,6 +25,7 @@ constexpr double UNKNOWN_WATCHDOG = -1;  // instead of a period: the watchdog is
 
 // "zero force was written"; or that it was not, then with `last`, the force that was written before, and who takes it away: the device's watchdog
 // of that period, s; 0: it has none; or UNKNOWN_WATCHDOG. `why`: the device's words, may be empty. Safe in a signal handler.
-void add_force_words(SafeLine& line, LetGo outcome, const ForceSize& last, double watchdog, std::string_view why = {}) noexcept;
+void add_force_words(SafeLine& line, ReleaseResult outcome, const ForceSize& last, double watchdog,
+                     std::string_view why = {}) noexcept;
 
 }  // namespace wholehand
