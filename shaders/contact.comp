@@ -88,13 +88,13 @@ void examine_finger(int f, int before) {
     int joint = is_joint ? start : first_joint + findLSB(places);
     bool presses = touching && support.element != int(scene.lid);
     Vec3 place = Vec3(0), normal = Vec3(0);
-    if (presses) {
+    ONCE_IF(presses) {
       Vec3 outward = SDF_KIND == SDF_LATTICE ? lattice_gradient(ball.place) : support.normal;
       place = ball.place - support.distance * outward;
       normal = -outward;
       vacant &= is_joint ? ~0u : ~(1u << (joint - first_joint));
     }
-    if (is_joint || presses) {
+    ONCE_IF(is_joint || presses) {
       put_point(CONTACTS, 2 * joint, grip, place);
       put_point(CONTACTS, 2 * joint + 1, grip, normal);
     }
@@ -127,5 +127,5 @@ void main() {
   bool has_grip = take_feasible_grip(grip);
   load_hand();
   load_outline();
-  if (has_grip) examine_hand();
+  ONCE_IF(has_grip) examine_hand();
 }

@@ -49,7 +49,7 @@ void main() {
   is_safe = TASK == EFFORT_WORST && push.flag != 0u;
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
-  if (has_grip) load_contacts(grip);
+  ONCE_IF(has_grip) load_contacts(grip);
   // the largest effort so far; one up to `enough` need not be known
   Real worst = Real(0);
   if (!is_safe && has_grip) {
@@ -73,7 +73,7 @@ void main() {
       Vec4 tilted = states_in[2u * state + 1u];
       Six wanted = wanted_for(states_in[2u * state], tilted);
       bool is_past = false;
-      if (is_safe && tilted.z >= Real(0)) {
+      ONCE_IF(is_safe && tilted.z >= Real(0)) {
         Real safe_tilt = kept(PLANE_SAFE_TILT, int(tilted.w), grip);
         is_past = is_no_number(safe_tilt) || safe_tilt < tilted.z;
       }
@@ -84,13 +84,13 @@ void main() {
       k += search.is_solving ? 0u : 1u;
     }
     turn(search, solve, is_new && search.is_solving, is_rising && rises > 0 ? RISE_TOLERANCE : HALF_TOLERANCE, enough, is_safe ? JUST_HELD : INFINITE);
-    if (search.is_solving && solve.done) {
+    ONCE_IF(search.is_solving && solve.done) {
       finish(search, solve);
       Vec4 tilted = states_in[2u * state + 1u];
       // a basis of another load may end in a corner: an effort unknown then is solved from the start
       bool is_told = search.has_basis || !search.is_warm;
       bool is_coarse = is_rising && rises > 0 && search.has_basis;
-      if (is_coarse) {
+      ONCE_IF(is_coarse) {
         uint next = highest(solve, solve.low * (Real(1) + RISE_TOLERANCE), state);
         rises = next == state ? 0 : rises - 1;
         state = next;

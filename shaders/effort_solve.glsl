@@ -224,7 +224,7 @@ void turn(inout Search search, inout Solve solve, bool is_new, Real tolerance, R
   search.is_warm = is_new ? search.has_basis : search.is_warm;
   restart(solve.wanted, ROUNDING * solve.size, is_new && !search.has_basis, is_new && search.has_basis);
   search.has_basis = search.has_basis || is_new;
-  if (search.is_solving && search.pivots >= FRESH_PIVOTS) {
+  ONCE_IF(search.is_solving && search.pivots >= FRESH_PIVOTS) {
     refine();
     search.pivots = 0;
   }
@@ -252,7 +252,7 @@ void finish(inout Search search, inout Solve solve) {
 
 // Where a grip's turns ran out before its states did.
 void leave_unfinished(uint grip, bool is_unfinished) {
-  if (is_unfinished) uint_out[uint(PLANE_STATUS) * push.stride + grip] |= STATUS_OUT_OF_TURNS;
+  ONCE_IF(is_unfinished) uint_out[uint(PLANE_STATUS) * push.stride + grip] |= STATUS_OUT_OF_TURNS;
 }
 
 #endif

@@ -82,11 +82,11 @@ bool is_busy(uint grip) {
 void main() {
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
-  if (has_grip) load_contacts(grip);
+  ONCE_IF(has_grip) load_contacts(grip);
   // the friction begins where the worst state's direction puts it, and goes on there in the blocks that follow
   uint hardest = 0u;
   bool is_first = TASK == EFFORT_FRICTION && push.first == 0u;
-  if (has_grip && TASK == EFFORT_FRICTION) {
+  ONCE_IF(has_grip && TASK == EFFORT_FRICTION) {
     if (!is_first) friction = kept(PLANE_FRICTION_NEEDED, 0, grip);
     Real fill = kept(PLANE_WORST_EFFORT_FILL, 0, grip), tilt = kept(PLANE_WORST_EFFORT_TILT, 0, grip);
     for (uint i = 0u; i < push.number; ++i) hardest = states_in[2u * i + 1u].w == fill && states_in[2u * i + 1u].z == tilt ? i : hardest;
@@ -118,14 +118,14 @@ void main() {
       raises = 0;
     }
     turn(search, solve, is_new && search.is_solving, is_first ? RISE_TOLERANCE : HALF_TOLERANCE, enough, too_much);
-    if (search.is_solving && solve.done) {
+    ONCE_IF(search.is_solving && solve.done) {
       finish(search, solve);
       if (!search.has_basis && search.is_warm && !is_first) continue;  // once more from the start
       bool is_held = solve.effort * (Real(1) - HALF_TOLERANCE) <= Real(1);
       // one call for both that ask: each call is compiled for itself
       bool asks = TASK == EFFORT_FRICTION && (is_first || (!is_held && !(friction >= MOST_FRICTION)));
       Real asked = friction;
-      if (asks) asked = least_friction(column(CUT), dot6(column(CUT), solve.wanted));
+      ONCE_IF(asks) asked = least_friction(column(CUT), dot6(column(CUT), solve.wanted));
       if (TASK == EFFORT_PUSH) {
         bool is_alone = k == 0u;
         worst = is_alone ? (solve.effort < Real(1) ? worst : INFINITE) : max(worst, solve.effort);
@@ -159,7 +159,7 @@ void main() {
     }
   }
   if (TASK == EFFORT_FRICTION && has_grip && kept(PLANE_WORST_EFFORT, 0, grip) <= Real(1)) friction = min(friction, scene.friction);
-  if (has_grip)
+  ONCE_IF(has_grip)
     put_real(plane_of_task(), 0, grip, TASK == EFFORT_FRICTION ? (is_first ? Real(0) : friction) : worst < NO_DISTANCE ? Real(1) / worst : Real(0));
   leave_unfinished(grip, k < number);
 }

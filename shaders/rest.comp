@@ -74,5 +74,5 @@ void main() {
   bool has_grip = take_feasible_grip(grip);
   load_hand();
   load_outline();
-  if (has_grip) rest_hand();
+  ONCE_IF(has_grip) rest_hand();
 }
