@@ -66,6 +66,13 @@ class Checking {
     on_double_ = std::make_unique<host::GripBackend>(device_scene, device_core, fields_, options.on, backend_options);
   }
 
+  // Makes the device's kernels, which takes as long as its driver compiles.
+  void make_kernels(std::size_t v, const std::vector<GripInput>& grips) {
+    if (grips.empty()) return;
+    gather(*on_float_, v, {grips.front()});
+    if (on_double_) gather(*on_double_, v, {grips.front()});
+  }
+
   std::size_t pairs() const { return on_double_ ? 3 : 2; }
 
   // Calls `done` after each comparison of the vessel's grips.
@@ -92,7 +99,7 @@ class Checking {
     if (on_double_) exact_.add_liquid(v, on_double_->liquid(v), liquid);
   }
 
-  void record_worst(CheckReport& report, const std::vector<CheckSample>& samples) const {
+  void fill_report(CheckReport& report, const std::vector<CheckSample>& samples) const {
     const BackendInfo& info = on_float_->info();
     report.device = info.device;
     report.driver = info.driver;
@@ -145,6 +152,7 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
       samples.push_back(check_sample(scene, plan, v));
       total += samples[v].grips.size() * checking.pairs();
     }
+    checking.make_kernels(0, samples[0].grips);
     Progress progress(total, 0, "comparisons", options.is_quiet ? ProgressSink::none : progress_sink());
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       const CheckSample& sample = samples[v];
@@ -155,7 +163,7 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
     }
     for (const Precision precision : host::contracted_precisions(host::Device(options.on, options.device)))
       report.contracted.push_back(precision == Precision::single ? "float" : "double");
-    checking.record_worst(report, samples);
+    checking.fill_report(report, samples);
   } catch (const Error& error) {
     throw check_error(error);
   }
