@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A kernel that includes this is built twice (SMALL comes from the build). llvmpipe runs each instruction on a vector of lanes: its wide build has loops
+// A kernel that includes this is built twice (SMALL comes from the build). llvmpipe runs each instruction on a vector of lanes: its wide build has
+// loops
 // unrolled and numbers in registers. Every other driver takes the small build: loops as they are, and what is rarely read in the group's
 // memory or in a buffer. Beside these macros they differ where SMALL stands: in accessors, and in a few lines of reserve.comp and gauge.glsl.
 #ifndef BUILD_GLSL
@@ -15,8 +16,8 @@
 #define UNROLL_PRECISE  // left to the driver: spirv-opt would lose `precise` (cmake/embed_module.cmake), or the number of turns is a constant of the scene
 #endif
 
-// A branch as a loop of one turn: with branches AMD's compiler takes 132 to 136 registers for reserve.comp, beside 128 that are allowed. llvmpipe is as
-// fast with either.
+// A branch of the kernels of efforts as a loop of one turn, which a `continue` leaves: with branches AMD's compiler takes 132 to 136 registers for
+// reserve.comp, and the budget is 128.
 #define ONCE_IF(condition) [[dont_unroll]] for (bool once = condition; once; once = false)
 
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernels 1 and 3 of one grip an invocation, and the open hand of 8: where thumb and index finger close on the vessel, or why they do not, and the whole hand as it closes.
+// Kernels 1 and 3 of one grip an invocation, and the open hand of 8: where thumb and index finger close on the vessel, or why they do not, and the
+// whole hand as it closes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernels 4, 8 and 9 of one feasible grip an invocation: what the points of the posed hand, and the spheres between them, touch and reach into. They are
+// Kernels 4, 8 and 9 of one feasible grip an invocation: what the points of the posed hand, and the spheres between them, touch and reach into. They
+// are
 // examined as they come, so that no array of 24 points is held.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -88,13 +89,13 @@ void examine_finger(int f, int before) {
     int joint = is_joint ? start : first_joint + findLSB(places);
     bool presses = touching && support.element != int(scene.lid);
     Vec3 place = Vec3(0), normal = Vec3(0);
-    ONCE_IF(presses) {
+    if (presses) {
       Vec3 outward = SDF_KIND == SDF_LATTICE ? lattice_gradient(ball.place) : support.normal;
       place = ball.place - support.distance * outward;
       normal = -outward;
       vacant &= is_joint ? ~0u : ~(1u << (joint - first_joint));
     }
-    ONCE_IF(is_joint || presses) {
+    if (is_joint || presses) {
       put_point(CONTACTS, 2 * joint, grip, place);
       put_point(CONTACTS, 2 * joint + 1, grip, normal);
     }
@@ -127,5 +128,5 @@ void main() {
   bool has_grip = take_feasible_grip(grip);
   load_hand();
   load_outline();
-  ONCE_IF(has_grip) examine_hand();
+  if (has_grip) examine_hand();
 }

@@ -141,7 +141,8 @@ Real support(Six direction, out Six point) {
   return dot6(direction, point);
 }
 
-// The wrench of a force in its unit at a place, in the units of force and length. Without torsion, without the lever about the tips' line that is none.
+// The wrench of a force in its unit at a place, in the units of force and length. Without torsion, without the lever about the tips' line that is
+// none.
 Six wanted_at(Vec3 place, Vec3 lift) {
   Vec3 arm = place - center, moment = cross(arm / unit_length, lift);
   if (BARE) {

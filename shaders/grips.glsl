@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grips of a dispatch as the kernels read and write them: axes in, planes out, and those of a group that there is something to do for.
+// The grips of a dispatch as the kernels read and write them: axes in, planes out, and the busy grips of a group.
 #ifndef GRIPS_GLSL
 #define GRIPS_GLSL
 
@@ -42,8 +42,9 @@ void put_point(int plane, int point, uint grip, Vec3 value) {
 shared uint busy_grips[GROUP_SIZE];
 shared uint busy_count;
 
-// Whether this invocation has a grip of those that are busy, which come one after another: all lanes of a vector run until the slowest is done.
-// Called once, by all invocations of the group.
+// Packs the group's busy grips into its first invocations, because all lanes of a vector run until the slowest is done. True: this invocation has
+// one,
+// `grip`. All invocations of the group call it, once.
 bool take_grip(bool is_busy, out uint grip) {
   if (gl_LocalInvocationIndex == 0u) busy_count = 0u;
   barrier();

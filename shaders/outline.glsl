@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the vessel's outline comes from, chosen when the shader is compiled: 0 reads elements and their number from a storage buffer in the loop; 1 copies
+// Where the vessel's outline comes from, chosen when the shader is compiled: 0 reads elements and their number from a storage buffer in the loop; 1
+// copies
 // them into registers once, the number specialized (docs/results has the cost).
 #ifndef OUTLINE_GLSL
 #define OUTLINE_GLSL

@@ -76,5 +76,5 @@ void judge_hand() {
 void main() {
   bool has_grip = take_feasible_grip(grip);
   load_hand();
-  ONCE_IF(has_grip) judge_hand();
+  if (has_grip) judge_hand();
 }

@@ -40,7 +40,7 @@ struct FingerWatch {
   bool looks, swings;
 };
 
-// Of FingerWatch in the core. Not in the struct, which is copied.
+// Part of FingerWatch in the core; outside of the struct here, because the struct is copied.
 Real until[PLACES];
 
 struct RestingFinger {
@@ -169,7 +169,8 @@ int decide_turn(Vec3 clear, FingerMotion motion, out bool blocked) {
   return blocked ? 3 : joint;
 }
 
-// By selection where the core branches: in nearly every turn of the loop some lane takes each of its ways, and then all wait for it. SwiftShader does not
+// By selection where the core branches: in nearly every turn of the loop some lane takes each of its ways, and then all wait for it. SwiftShader does
+// not
 // compile chains of selections that are much longer.
 RestingFinger rest_finger(Finger finger, Real limit) {
   bool undecided = false;

@@ -46,7 +46,8 @@ layout(constant_id = CONST_FEW_STEPS) const bool FEW_STEPS = false;
 Real smaller(Real a, Real b) { return b < a ? b : a; }
 Real larger(Real a, Real b) { return a < b ? b : a; }
 
-// By its bits: a driver without SignedZeroInfNanPreserve may take comparisons for those of numbers. Such a driver may take all numbers for finite, too:
+// By its bits: a driver without SignedZeroInfNanPreserve may take comparisons for those of numbers. Such a driver may take all numbers for finite,
+// too:
 // whether one is, the kernels ask by `< NO_DISTANCE`.
 bool is_no_number(Real a) {
 #if REAL_IS_DOUBLE

@@ -74,5 +74,5 @@ void main() {
   bool has_grip = take_feasible_grip(grip);
   load_hand();
   load_outline();
-  ONCE_IF(has_grip) rest_hand();
+  if (has_grip) rest_hand();
 }

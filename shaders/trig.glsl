@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Twin of core/trig.cpp: polynomials, since Vulkan promises its own sine only to 2^-11. Argument reduction to [-pi/4, pi/4] with pi/2 in
 // three parts; minimax polynomials there, fitted for this project. Errors in units in the last place of 1 (2^-23, 2^-52), float and double
-// (tests/shaders/parity_leaf_test.cpp): sine and cosine 1 for |angle| <= 16; arc cosine 3; angle_between 4, its arguments' rounding left aside; direction_angle 4.
+// (tests/shaders/parity_leaf_test.cpp): sine and cosine 1 for |angle| <= 16; arc cosine 3; angle_between 4, its arguments' rounding left aside;
+// direction_angle 4.
 #ifndef TRIG_GLSL
 #define TRIG_GLSL
 
