@@ -10,7 +10,7 @@
 namespace wholehand {
 namespace {
 
-// Of `filled` m3, more than nothing.
+// `filled`: m3, more than 0.
 std::size_t tilts_until_poured(const Scene& scene, const core_f64::Vessel& vessel, const core_f64::Quadrature& rule,
                                double filled) {
   std::size_t count = 0;

@@ -65,7 +65,8 @@ Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand,
                Real tolerance = EFFORT_TOLERANCE);
 
 // The least friction with which the effort of every state that counts is up to 1, to FRICTION_STEP, never too small by more than the
-// tolerance of the effort; neither `hand.friction` nor the state with which the search begins matters beyond that. Infinite: none up to MOST_FRICTION.
+// tolerance of the effort; neither `hand.friction` nor the state with which the search begins matters beyond that. Infinite: none up to
+// MOST_FRICTION.
 // `found`: what grip_effort says of the same. A worst effort up to 1 says that `hand.friction` is enough: then it is no more than that.
 Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const GripLoads& loads,
                      const GripEffort& found, Real tolerance = EFFORT_TOLERANCE);

@@ -20,7 +20,8 @@ Element load_element(const wholehand::PreparedElement& element);
 // Signed volume of revolution under an element, pi int r^2 dy from a to b, and its first moment by y (volume m3, height m4).
 Slices revolved_element(const Quadrature& quadrature, const Element& element);
 
-// `density` of the glass or its given mass; lip capacities at whole degrees where `with_liquid` and there is a cavity. The center of mass is mirrored in x
+// `density` of the glass or its given mass; lip capacities at whole degrees where `with_liquid` and there is a cavity. The center of mass is mirrored
+// in x
 // for a left hand.
 Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::VesselData& data, const Quadrature& quadrature,
                    bool with_liquid, wholehand::Handedness handedness);

@@ -6,7 +6,7 @@
 
 namespace CORE_NS {
 
-// Of `filled` m3 at a tilt (rad, 0..pi, with its sine and cosine), m3. The way counts at every whole degree. The vessel has a
+// What remains of `filled` m3 at a tilt (rad, 0..pi, with its sine and cosine), m3. What poured at any smaller whole degree is gone. The vessel has a
 // cavity and was loaded with liquid.
 Real remaining_volume(const Vessel& vessel, const Quadrature& quadrature, Real filled, double tilt, Real sine_tilt,
                       Real cosine_tilt);

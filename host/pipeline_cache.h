@@ -9,7 +9,8 @@
 
 namespace wholehand::host {
 
-// Makes device.cache, from its file where there is one. Throws Error (usage) as cache_limit does. `folder` empty: $XDG_CACHE_HOME/wholehand or ~/.cache/wholehand, nothing kept
+// Makes device.cache, from its file where there is one. Throws Error (usage) as cache_limit does. `folder` empty: $XDG_CACHE_HOME/wholehand or
+// ~/.cache/wholehand, nothing kept
 // on a CPU driver.
 void open_pipeline_cache(DeviceState& device, const std::string& folder);
 

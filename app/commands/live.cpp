@@ -187,7 +187,7 @@ class LiveRun {
     board.show(options_.json);
     show_status("");
     print_summary(report, recorder, is_recorded, true);
-    if (watch_ && !watch_->returns_in_time()) leave_watch(report);
+    if (watch_ && !watch_->wait_for_return()) leave_watch(report);
     if (is_force_left(report) || (report.fault != Fault::none && report.fault != Fault::interrupted))
       throw failure_error(fault_words(report));
     if (report.fault == Fault::interrupted) return ExitCode::interrupted;

@@ -71,8 +71,8 @@ std::shared_ptr<const Advice> LiveAdvice::newest() const { return loop_ ? loop_-
 void LiveAdvice::narrate_newest() {
   const std::shared_ptr<const Advice> now = newest();
   const std::lock_guard lock(mutex_);
-  if (!now || now == told_) return;
-  told_ = now;
+  if (!now || now == narrated_) return;
+  narrated_ = now;
   if (std::optional<std::string> line = narrator_.narrate(*now)) lines_.push_back(std::move(*line));
 }
 

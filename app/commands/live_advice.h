@@ -61,7 +61,7 @@ class LiveAdvice {
   std::mutex mutex_;  // of the next three
   AdviceNarrator narrator_;
   std::vector<std::string> lines_;
-  std::shared_ptr<const Advice> told_;
+  std::shared_ptr<const Advice> narrated_;
 };
 
 // "computed on vulkan, llvmpipe (..): 312 updates of 1,024 grips on average, 9.8 a second, no two further apart than 0.15 s".

@@ -48,7 +48,8 @@ struct LiveSummary {
 std::string live_text(const LiveSummary& summary);
 std::string live_json(const LiveSummary& summary);
 
-// "live: a fault ended the session after 2.004 s: read error (unplugged); zero force was written": the line for a session that ended by a fault, with what was found,
+// "live: a fault ended the session after 2.004 s: read error (unplugged); zero force was written": the line for a session that ended by a fault, with
+// what was found,
 // what is allowed, and what became of the force. The same for a session that ended without one and left a force on the device.
 std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live, double watchdog);
 // Whether the device did not take zero force at the end.

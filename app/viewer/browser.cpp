@@ -27,7 +27,7 @@ bool has_desktop() { return (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")) && 
 
 BrowserWindow::BrowserWindow(const std::string& address, bool on_standard_error) {
   if (on_standard_error) {
-    print_error_line("view: " + address);
+    print_to_stderr("view: " + address);
   } else {
     print(fmt::format("view: {}\n", address));
   }

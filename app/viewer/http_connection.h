@@ -17,7 +17,8 @@ constexpr std::chrono::milliseconds REQUEST_PATIENCE{5000};  // for the whole of
 constexpr std::chrono::milliseconds WRITE_PATIENCE{2000};    // without progress
 
 // Reads and checks a request's whole head before httplib sees any of it: httplib has no limit on a line, and takes some headers apart with
-// std::regex, which recurses with every character. Those that are not needed here (ranges, compression) are hidden from it, and what it would decode in
+// std::regex, which recurses with every character. Those that are not needed here (ranges, compression) are hidden from it, and what it would decode
+// in
 // Host and Origin is spoilt.
 class HttpConnection final : public httplib::Stream {
  public:

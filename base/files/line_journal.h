@@ -36,7 +36,8 @@ class LineJournal {
   // Begins anew. Throws Error (failure) where the file cannot be written.
   LineJournal(const std::string& path, const JournalKind& kind, const JournalIdentity& identity);
   // Goes on: `take` gets what is done, in the file's order, and lines that are not as they were written are counted in `damaged`.
-  // Throws Error: (usage) a version before 0.4 wrote the journal, or it is of another run, and in what; (failure) it cannot be read or written, or its head is
+  // Throws Error: (usage) a version before 0.4 wrote the journal, or it is of another run, and in what; (failure) it cannot be read or written, or
+  // its head is
   // damaged.
   LineJournal(const std::string& path, const JournalKind& kind, const JournalIdentity& identity, const Take& take,
               std::size_t& damaged);

@@ -11,9 +11,9 @@ std::atomic<bool> signal_came{false};
 std::atomic<int> number_of_first{0};
 static_assert(std::atomic<bool>::is_always_lock_free);  // or a signal handler could not set it
 
-// Whoever starts the program may send a signal to it and to its group, so the same wish comes twice: what follows this closely is no
+// Whoever starts the program may send a signal to it and to its group, so the same request comes twice: what follows this closely is no
 // second wish.
-constexpr double ONE_WISH = 0.25;  // s
+constexpr double SAME_REQUEST = 0.25;  // s
 
 std::atomic<double> first_came{0};
 std::atomic<void (*)(int)> another{nullptr};
@@ -29,7 +29,7 @@ void on_signal(int signal) {
     stop = true;
     return;
   }
-  if (monotonic_now() - first_came < ONE_WISH) return;
+  if (monotonic_now() - first_came < SAME_REQUEST) return;
   if (const auto act = another.load()) return act(signal);
   struct sigaction by_default {};
   by_default.sa_handler = SIG_DFL;

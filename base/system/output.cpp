@@ -78,12 +78,12 @@ void print(std::string_view text) {
   std::fflush(stdout);
 }
 
-void print_error_line(std::string_view line) {
+void print_to_stderr(std::string_view line) {
   const std::string shown = one_line(line) + '\n';
   std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
-void print_note(const std::string& line) { print_error_line("wholehand: " + line); }
+void print_note(const std::string& line) { print_to_stderr("wholehand: " + line); }
 
 bool is_output_abandoned() { return standard_output.failure == EPIPE; }
 

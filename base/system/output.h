@@ -12,12 +12,13 @@ namespace wholehand {
 // lost. What standard output does not take is lost too, and finish_output() reports it.
 void prepare_output();
 
-// Writes `text` to standard output at once. Here and in what follows, what steers a terminal is replaced (base/text/printable.h): only line feeds and tabs
+// Writes `text` to standard output at once. Here and in what follows, what steers a terminal is replaced (base/text/printable.h): only line feeds and
+// tabs
 // of `text` stay. Nothing else of the program prints, so that no name of a file or a device reaches a terminal as it is.
 void print(std::string_view text);
 
 // Writes one line to standard error at once: as it is, and as a note of the program.
-void print_error_line(std::string_view line);
+void print_to_stderr(std::string_view line);
 void print_note(const std::string& line);
 
 // Whether standard output is a pipe whose reader has gone, as far as it was noticed: nobody wants to read more. Where printing is all that is

@@ -20,7 +20,7 @@ using protocol::Wrong;
 
 constexpr double START_PATIENCE = 1;  // s: for the first measurement; a device may have something to finish
 constexpr int MOST_QUEUES = 8;        // that one read takes: a device that is faster than its reader does not hold it up for ever
-constexpr double SHORTEST_OF_REQUESTED = 0.5;  // a device rounds its watchdog period down, and not to nothing
+constexpr double LEAST_WATCHDOG_SHARE = 0.5;  // a device rounds its watchdog period down, and not to nothing
 
 // Forces beyond the device's limits are scaled to them, direction kept: the last guard before the wire.
 GripperForce limited(const GripperForce& force, const GripperLimits& limits) {
@@ -145,7 +145,7 @@ void ProtocolGripper::set_watchdog(double seconds) {
   if (!(has.flags & protocol::WATCHDOG_ON))
     throw failure_error(
         fmt::format("{}: its watchdog stays off, and without one nothing stops its force when this program does", limits_.address));
-  if (has.period > requested.period || has.period < SHORTEST_OF_REQUESTED * requested.period)
+  if (has.period > requested.period || has.period < LEAST_WATCHDOG_SHARE * requested.period)
     throw failure_error(fmt::format("{}: asked for a watchdog of {:g} ms, it keeps {:g} ms", limits_.address,
                                     requested.period / 1e3, has.period / 1e3));
   limits_.watchdog = has.period / protocol::SECOND;

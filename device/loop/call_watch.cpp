@@ -84,7 +84,7 @@ double CallWatch::lasted() const noexcept {
   return since > 0 ? monotonic_now() - since : 0;
 }
 
-bool CallWatch::returns_in_time() const noexcept {
+bool CallWatch::wait_for_return() const noexcept {
   // counted, not timed: a process that is stopped meanwhile has not waited
   for (int k = 0; k < CALL_LOST * 1e3 && is_looking_; ++k) poll(nullptr, 0, 1);
   return !is_looking_;

@@ -14,7 +14,8 @@ namespace wholehand {
 constexpr double CALL_PATIENCE = 12e-3;  // s: READ_PATIENCE and what a wait is longer than was asked
 constexpr double CALL_LOST = 1;          // s: a call that has not returned by then is given up, and the session with it
 
-// While it lives, a call of the gripper that does not return within CALL_PATIENCE has Gripper::release_from_watchdog() called on its own thread, once a call.
+// While it lives, a call of the gripper that does not return within CALL_PATIENCE has Gripper::release_from_watchdog() called on its own thread, once
+// a call.
 class CallWatch {
  public:
   // `gripper` must outlive it. Throws std::system_error where there is no thread.
@@ -46,7 +47,7 @@ class CallWatch {
 
   // Whether the second thread is, or comes within CALL_LOST, out of its own call of the gripper; asked while the haptic thread is in no call. If
   // not, the destructor would wait without end.
-  bool returns_in_time() const noexcept;
+  bool wait_for_return() const noexcept;
   // Zero force by the second thread, for a signal handler or a program that is being ended, on any thread. Waits a while; not_attempted: the
   // second thread has no answer.
   ReleaseResult rescue() noexcept;

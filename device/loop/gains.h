@@ -18,7 +18,8 @@ struct GainLimits {
 };
 GainLimits gain_limits(double rate, double wall_damping);
 
-// How many times K a gripper feels at its arm or fingers, whichever is more (device/session/workspace.h's coupling_slope). `device_gap`: its own closed
+// How many times K a gripper feels at its arm or fingers, whichever is more (device/session/workspace.h's coupling_slope). `device_gap`: its own
+// closed
 // and open gap, m, where [device] gap_mm says none.
 double device_slope(const Scene& scene, std::array<double, 2> device_gap);
 

@@ -41,7 +41,8 @@ struct GripLoopResult {
 
 // Two seconds to grasp, the tilt, and two seconds and ten reactions to settle. The grip is lost where x falls below -band; oscillates where
 // x still rises and falls by more than GRIP_SWING in the end (half a second, or five reactions: more than a period of the user's loop at
-// its limit), creeps where it only does one of them; saturates where the feedback is then at F_max throughout, so that the user feels neither torque nor grip and closes on.
+// its limit), creeps where it only does one of them; saturates where the feedback is then at F_max throughout, so that the user feels neither torque
+// nor grip and closes on.
 GripLoopResult hold_and_tilt(const GripLoop& loop);
 constexpr double GRIP_SWING = 0.2e-3;  // m
 

@@ -138,7 +138,8 @@ struct Recording {
 // (usage), one line with the file: it cannot be read, is no recording, lacks something, or holds what cannot be.
 Recording read_recording(const std::string& path);
 
-// The scene of a recording, as its session had it: parses the recorded text, and gives the scene the hand of the virtual person who made the recording, if one did. Throws Error
+// The scene of a recording, as its session had it: parses the recorded text, and gives the scene the hand of the virtual person who made the
+// recording, if one did. Throws Error
 // (usage) as parse_scene does. Meshes are not loaded.
 Scene scene_of_recording(const RecordingInfo& info);
 

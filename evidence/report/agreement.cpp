@@ -227,11 +227,9 @@ void write_agreement(MarkupWriter& html, const ReportSource& source, std::size_t
                readable_number(row.compared), readable_number(row.outside)});
   table.end();
   std::string note =
-      "The tolerance of a number is a floor for rounding and stop tolerance. For a grip beyond a floor it grows by how far the "
-      "core's own "
-      "answer changes when the grip moves by as much as the precision of the sweep leaves open. The table shows the tolerance of "
-      "the grip "
-      "with the largest difference.";
+      "The tolerance covers rounding and the stop tolerance. A difference beyond these adds twice the change of the core's own "
+      "answer when the grip moves by as much as the sweep's precision leaves open. The table shows the tolerance of the grip with "
+      "the largest difference.";
   if (!agreement.uncompared.empty()) note += fmt::format(" These are not compared: {}.", joined(agreement.uncompared, ", "));
   html.element("p", note, {{"class", "note"}}).close();
 }

@@ -25,7 +25,8 @@ struct Agreement {
   bool holds() const { return flipped == 0 && outside == 0 && excluded <= allowed; }
 };
 
-// The vessel's grips at sample_places and in its lists, computed anew by the core in double and compared by the tolerances of `wholehand check` for the
+// The vessel's grips at sample_places and in its lists, computed anew by the core in double and compared by the tolerances of `wholehand check` for
+// the
 // precision of the file. Needs the core.
 Agreement compare_with_core(const ReportSource& source, std::size_t vessel);
 

@@ -22,7 +22,8 @@ struct ReportedGrips {
 };
 ReportedGrips read_grips(const ReportSource& source, std::size_t list);
 
-// The table, and a figure with the drawings of the first DRAWN_GRIPS. What cannot be drawn is left out with a sentence. `id`: of the list, in the page.
+// The table, and a figure with the drawings of the first DRAWN_GRIPS. What cannot be drawn is left out with a sentence. `id`: of the list, in the
+// page.
 void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best,
                  const std::string& id);
 

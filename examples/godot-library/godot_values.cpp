@@ -13,7 +13,7 @@ namespace {
 
 Functions api;
 
-// Of Vector3 and Quat: the floats that they are.
+// The floats of a Vector3 or Quat.
 template <class To>
 To floats(const double* from) {
   constexpr int count = sizeof(To) / sizeof(float);

@@ -280,7 +280,7 @@ class ClusterSweep final : public Sweep {
       });
     };
     if (team_.is_leader()) {
-      save_on_failure(*file, ending);
+      run_and_save_on_failure(*file, ending);
     } else {
       ending();
     }

@@ -13,7 +13,8 @@
 namespace wholehand {
 
 // A joint of the hand in the vessel frame. Its rotation is OpenXR's: +z along the bone away from the tip, +y out of the back of the
-// hand (of a thumb: of its nail), for either hand; a tip has that of the bone it ends. The bone of a joint runs to the next joint of the finger, along -z.
+// hand (of a thumb: of its nail), for either hand; a tip has that of the bone it ends. The bone of a joint runs to the next joint of the finger,
+// along -z.
 struct HandNode {
   const char* name = "";    // WebXR's, by which hand rigs in glTF are matched: "thumb-metacarpal" .. "pinky-finger-tip"
   const char* openxr = "";  // OpenXR's enumerant of the same joint: "XR_HAND_JOINT_THUMB_METACARPAL_EXT"
@@ -30,7 +31,8 @@ struct HandNodes {
 
 // Nodes of the posed hand of a feasible grip: positions are result.posed.
 HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result);
-// The nodes of any hand, in the frame of `points`: the hand frame's origin lies at `wrist` and is turned by `rotation` (of a left hand, whose frame has the
+// The nodes of any hand, in the frame of `points`: the hand frame's origin lies at `wrist` and is turned by `rotation` (of a left hand, whose frame
+// has the
 // mirrored +y and +z, as the nodes have it). `ready`: the same hand, loaded; `scale` times the hand's own. Allocates nothing.
 HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Triple& wrist, const Rotation& rotation,
                      const std::array<Triple, JOINT_COUNT>& points, double scale = 1);

@@ -35,7 +35,8 @@ std::string fill_number(const GripReport& report, double fill);
 // The same in words: "250 mL", "fill 0.605", "empty".
 std::string fill_words(const GripReport& report, double fill);
 
-// A fill of a vessel as the scene gives it, for a page: "250 mL" of fills_ml, else "60.5 %" of what the vessel holds; "empty" without liquid. Number and
+// A fill of a vessel as the scene gives it, for a page: "250 mL" of fills_ml, else "60.5 %" of what the vessel holds; "empty" without liquid. Number
+// and
 // unit stay in one line.
 std::string fill_text(const Scene& scene, std::size_t vessel, double fill);
 // As a share, whatever the scene gives.

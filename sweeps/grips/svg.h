@@ -12,7 +12,8 @@ namespace wholehand {
 // By what such a drawing is known as made here.
 inline constexpr std::string_view GRIP_SVG_MARK = "<title id=\"title\">Grip of ";
 
-// The text of an SVG of at most 180 mm by 250 mm, one unit of its coordinates a millimeter of the vessel; black on white, contact points in colors that
+// The text of an SVG of at most 180 mm by 250 mm, one unit of its coordinates a millimeter of the vessel; black on white, contact points in colors
+// that
 // color-blind readers distinguish and in shapes that do without color. Third-angle projection: the front view from the side of the hand,
 // the thumb-index line across; the top view above it; the side view beside it, from the right. Posed joints with their skin, seen through
 // the glass where they are behind it. With a title and a description for screen readers.

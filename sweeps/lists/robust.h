@@ -58,7 +58,8 @@ std::size_t robust_candidates(const Scene& scene, std::size_t best);
 // Opens what evaluates grips of a scene that differs from the sweep's in its friction alone.
 using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
 
-// In a scene with [robust], ranks each list by the 10th percentile of its grips, then by their mean, then as it was: the first min(best, MOST_ROBUST) places, for
+// In a scene with [robust], ranks each list by the 10th percentile of its grips, then by their mean, then as it was: the first min(best, MOST_ROBUST)
+// places, for
 // which the first judged_grips(best) grips of the list are judged. The grips on these places get their robust scores. What follows keeps its
 // order, and the list ends with `best` grips. A deviation that is not eligible scores 0. A grip whose deviations so far
 // leave it no place is not judged further, which changes no list. The same bits however many grips the backend takes at once. `stop` may

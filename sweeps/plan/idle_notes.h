@@ -14,7 +14,8 @@ namespace wholehand {
 // A line on [strength] in a scene without [tilts]: there are no states whose effort could be found. Empty in other scenes.
 std::string idle_strength_note(const Scene& scene);
 
-// A line for the terminal on what no grip is judged by, since the scene has no [table], [strength] or [tilts], or a single grip of each vessel. Empty in scenes
+// A line for the terminal on what no grip is judged by, since the scene has no [table], [strength] or [tilts], or a single grip of each vessel. Empty
+// in scenes
 // that have all of them.
 std::string unjudged_note(const Scene& scene, const Plan& plan);
 

@@ -17,7 +17,8 @@
 namespace wholehand {
 
 // Weights of the six terms, in the order of effective_weights, from "fingers=0.2,depth=0.5": the scene's own where one is not named; in a scene
-// without tilts, where they are scaled to sum to 1, those named are taken as they are and the others as scaled. Throws Error (usage) for a term that is not
+// without tilts, where they are scaled to sum to 1, those named are taken as they are and the others as scaled. Throws Error (usage) for a term that
+// is not
 // known or not there, is named twice, or whose weight is no number from 0 to 1000; and where no weight is left.
 std::array<double, 6> read_weights(const std::string& text, const Scene& scene);
 

@@ -28,7 +28,8 @@ class GuardedFile {
     std::vector<std::size_t> shape;
   };
 
-  // Opens the file and reads its structure, the file's own attributes and a value at both ends of every variable of numbers. Throws Error: (usage) one
+  // Opens the file and reads its structure, the file's own attributes and a value at both ends of every variable of numbers. Throws Error: (usage)
+  // one
   // line that begins with the path: it cannot be read, is no regular file, is damaged or no NetCDF-4; (failure) no process can be started.
   explicit GuardedFile(const std::string& path);
   ~GuardedFile();
@@ -40,7 +41,8 @@ class GuardedFile {
 
   // Null where the file does not have the variable.
   const Stored* find(const std::string& name) const;
-  // An attribute of the file, or what its variable CHECKSUMS holds (sweeps/result/result_checksums.h); nothing where it is not there or of another type.
+  // An attribute of the file, or what its variable CHECKSUMS holds (sweeps/result/result_checksums.h); nothing where it is not there or of another
+  // type.
   std::optional<std::string> text(const std::string& name) const;
   std::optional<double> number(const std::string& name) const;  // one NC_DOUBLE
 

@@ -25,7 +25,8 @@ bool is_usable(int status);
 bool send_all(int socket, const void* data, std::size_t size);
 bool take_all(int socket, void* data, std::size_t size, int seconds);
 
-// Opens the file and sends the status of that; if it is good, the catalogue: its size (uint64) and that many bytes. Then answers requests until the other
+// Opens the file and sends the status of that; if it is good, the catalogue: its size (uint64) and that many bytes. Then answers requests until the
+// other
 // end closes. For a child process alone: takes over its streams, limits and signals, and does not return.
 [[noreturn]] void serve(int socket, const std::string& name);
 

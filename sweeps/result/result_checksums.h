@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checksums of all that a result file holds, kept in a variable of the file: of the values of each variable and vessel, block by block, and of all else.
+// Checksums of all that a result file holds, kept in a variable of the file: of the values of each variable and vessel, block by block, and of all
+// else.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +45,8 @@ ChecksumParts checksum_parts(const std::string& path);
 // The checksum of a block of a part of an open file. Throws Error (failure): the file lacks it, or cannot be read.
 std::string block_checksum(int file, const ChecksumPart& part, std::uint64_t block);
 
-// Finds the checksums that are not known yet, writes all into the open file `path`, and syncs it: the last change of a result. Throws Error (failure).
+// Finds the checksums that are not known yet, writes all into the open file `path`, and syncs it: the last change of a result. Throws Error
+// (failure).
 void write_checksums(int file, const std::string& path, ChecksumParts parts);
 
 // The checksums of a file that is read. Values are compared with theirs before their first use, once.

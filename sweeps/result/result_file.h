@@ -44,7 +44,8 @@ class ResultFile {
   // do that. Contents must outlive the object, the same ones for a file that is resumed.
   ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, FileStart start,
              const OpenOutput& open_output = {});
-  // Opens the one that another process has made, whose places these are, to put grips into it beside that process; or a shard (sweeps/result/shard.h).
+  // Opens the one that another process has made, whose places these are, to put grips into it beside that process; or a shard
+  // (sweeps/result/shard.h).
   ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, const FilePlaces& places,
              const OpenOutput& open_output = {});
   ~ResultFile();

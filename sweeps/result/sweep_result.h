@@ -43,8 +43,10 @@ struct RefinedGrip {
   double score = 0;
 };
 
-// The one reader of results, of local files only; a damaged one costs an error and no more (sweeps/result/guarded_file.h). No value is taken from the file
-// before it is known to have the type and shape that a sweep gives it, and to be what the sweep wrote (sweeps/result/result_checksums.h). Not thread-safe.
+// The one reader of results, of local files only; a damaged one costs an error and no more (sweeps/result/guarded_file.h). No value is taken from the
+// file
+// before it is known to have the type and shape that a sweep gives it, and to be what the sweep wrote (sweeps/result/result_checksums.h). Not
+// thread-safe.
 class SweepResult {
  public:
   // Opens the file. Throws Error (usage), one line with the file: it is not there or cannot be read, is no NetCDF-4 file or a damaged one, is

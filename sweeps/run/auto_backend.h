@@ -46,7 +46,8 @@ struct BackendChoice {
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
                              const std::vector<host::DeviceInfo>& devices);
 
-// Chooses among the devices of this machine, which are listed only where one may be chosen. Falls back to the core where there is none. Does not throw.
+// Chooses among the devices of this machine, which are listed only where one may be chosen. Falls back to the core where there is none. Does not
+// throw.
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision);
 
 // Decides when it is made, before meshes are read; `options.on` then says core or a device, and `options.alternative` what the other would take.

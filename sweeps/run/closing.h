@@ -36,8 +36,10 @@ std::string verdict_text(const Scene& scene, const std::vector<BestGrip>& best);
 // backend may decide otherwise"; empty where none is.
 std::string gate_text(std::uint64_t at_gate, double gate_tolerance);
 
-// What is printed of a list of a vessel's best grips: the table of the first, how many more are in `file` ("" where there is none), how many ranks are
-// within view.score_tolerance of the next one, and whether the best lies at an end of an axis, which a list of several results does not say. Empty for an
+// What is printed of a list of a vessel's best grips: the table of the first, how many more are in `file` ("" where there is none), how many ranks
+// are
+// within view.score_tolerance of the next one, and whether the best lies at an end of an axis, which a list of several results does not say. Empty
+// for an
 // empty list.
 std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<BestGrip>& best,
                        const std::string& file, const ListView& view);

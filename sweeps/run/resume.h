@@ -22,7 +22,8 @@ void check_complete(const std::string& result, const Scene& scene, bool on_core,
 std::map<std::string, std::string> sweep_identity(const Scene& scene, const Plan& plan, const BackendInfo& info, std::size_t best,
                                                   const std::vector<const Variable*>& variables);
 
-// Reads the mark that a sweep goes on with. False: there is none, or the partial file no longer has the structure that the mark vouches for; then `note`
+// Reads the mark that a sweep goes on with. False: there is none, or the partial file no longer has the structure that the mark vouches for; then
+// `note`
 // is a line for the user. Throws Error: (usage) it is of another sweep, (failure) it is damaged or contradicts itself.
 bool load_usable_mark(const OutputNames& names, const std::map<std::string, std::string>& identity, const MarkBounds& bounds,
                       SweepMark& mark, std::string& note);

@@ -119,7 +119,7 @@ ExitCode Sweep::run() {
   is_marked_ = resumed;
   if (!repair(file, interrupt) || !sweep(file, interrupt)) return interrupted();
   bool is_whole = false;
-  save_on_failure(file, [&] {
+  run_and_save_on_failure(file, [&] {
     BestLists best = find_best();
     is_whole = choose_best(best, interrupt);
     if (is_whole) return publish(file, std::move(best));
@@ -523,7 +523,7 @@ BestLists Sweep::find_best() const {
   return lists;
 }
 
-void Sweep::save_on_failure(ResultFile& file, const std::function<void()>& ending) {
+void Sweep::run_and_save_on_failure(ResultFile& file, const std::function<void()>& ending) {
   try {
     ending();
   } catch (...) {

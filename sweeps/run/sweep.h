@@ -70,7 +70,7 @@ class Sweep {
   void save(ResultFile& file);
   ExitCode interrupted() const;
   // Does what follows the last grip. Where that fails the mark has all grips, as far as it can be written.
-  void save_on_failure(ResultFile& file, const std::function<void()>& ending);
+  void run_and_save_on_failure(ResultFile& file, const std::function<void()>& ending);
   // The places of the grips of each list; which of them are listed in the end, and their refined grips and robust scores, false where that was
   // interrupted; and the files, once all is known.
   BestLists find_best() const;

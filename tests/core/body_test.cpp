@@ -294,7 +294,7 @@ TEST(Body, SelfDepthIsTheLargestOverlapOfTwoDigits) {
       20);
   EXPECT_GT(overlapping, 2);
   EXPECT_GT(near, 5);
-  EXPECT_GT(widest, 0) << "no hand of nearly even radii was looked at";
+  EXPECT_GT(widest, 0) << "the sample has no hand of nearly even radii";
   EXPECT_LT(widest, 0.05e-3);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// No kernel takes more turns of loops than every driver grants, and what would take more is the core's. A meter after each kernel (meter.glsl) measures
+// No kernel takes more turns of loops than every driver grants, and what would take more is the core's. A meter after each kernel (meter.glsl)
+// measures
 // what a driver counts that ends loops after so many, which llvmpipe does. On every other the meter must measure 0.
 // sanitizers: none
 #include "host/turns.h"
@@ -298,7 +299,8 @@ TEST(Turns, EffortsEndWithinTheirBounds) {
   }
 }
 
-// Whole hands with as many spheres as there may be. A step that never ends near the wall takes all its turns, and an outline of the largest size in a loop
+// Whole hands with as many spheres as there may be. A step that never ends near the wall takes all its turns, and an outline of the largest size in a
+// loop
 // leaves few.
 TEST(Turns, GripsEndWithinTheirBounds) {
   Scene scene = scene_of({belly_of(MAX_OUTLINE)});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program's kernel of this name, as a driver would compile it that contracts a product and a sum in spite of `precise`: nothing is lost between them.
+// The program's kernel of this name, as a driver would compile it that contracts a product and a sum in spite of `precise`: nothing is lost between
+// them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

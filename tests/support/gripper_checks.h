@@ -164,7 +164,8 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
   EXPECT_EQ(first.time, again.time);
 }
 
-// On the machine's clock. Both sides let go: the host's read says so within its patience, the device by its watchdog of 200 ms, which stays tripped for
+// On the machine's clock. Both sides let go: the host's read says so within its patience, the device by its watchdog of 200 ms, which stays tripped
+// for
 // this session and not for the next.
 template <class Open>
 void check_silence(MockGripper& mock, const Open& open) {

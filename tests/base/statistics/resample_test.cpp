@@ -66,7 +66,7 @@ TEST(Resample, LeavesOutSamplesWithoutTheStatistic) {
   EXPECT_TRUE(std::isnan(resampled_interval(100, 1, 200, 1, rarely(0.8)).low));
 }
 
-// Of 0 to 40 in any order, the 2.5th percentile is the second value, and the 97.5th the last but one.
+// The 2.5th percentile of 0 to 40, in any order, is the second value, and the 97.5th the last but one.
 TEST(SampleInterval, GoesFromTheSecondOf41ToTheLastButOne) {
   std::vector<double> values;
   for (int k = 0; k < 41; ++k) values.push_back((17 * k) % 41);

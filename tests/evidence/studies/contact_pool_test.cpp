@@ -120,7 +120,7 @@ std::size_t place_of_statistic(std::size_t vessel, const std::string& name) {
   return 0;
 }
 
-// Of 17 people, each sample has all 17 grasps of the second vessel. Of 1,700, the mean of 17 numbers of fingers, 1 to 5, scatters.
+// A sample of 17 people has all 17 grasps of the second vessel. In one of 1,700 people the mean of 17 numbers of fingers, 1 to 5, scatters.
 TEST(ContactPool, IntervalsAreThoseOfSmallSamples) {
   const std::vector<StudyVessel> vessels = pool_vessels();
   for (const std::uint64_t count : {17u, 1700u}) {

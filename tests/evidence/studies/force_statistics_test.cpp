@@ -10,7 +10,7 @@
 namespace wholehand {
 namespace {
 
-// Of `people`, the first `lost` of each choice lose the grip often.
+// The first `lost` of `people` lose the grip often, at each choice.
 std::vector<ForcesOfPerson> made(std::size_t people, const std::array<std::size_t, FORCE_CHOICES>& lost) {
   std::vector<ForcesOfPerson> all(people);
   for (std::size_t person = 0; person < people; ++person)
@@ -76,7 +76,7 @@ TEST(ForceStatistics, NobodyLosesSoNothingSaysWhatMattersMore) {
   EXPECT_EQ(row(rows, "lost_share", "2.2").inside(), std::optional(false));
 }
 
-// Of 400 people a half: ten of them are a hypergeometric draw, whose 2.5th and 97.5th percentile are 2 and 8 of 10 (the tails
+// Half of 400 people: ten of them are a hypergeometric draw, whose 2.5th and 97.5th percentile are 2 and 8 of 10 (the tails
 // beyond are 1.0 % below 2, and 5.3 % below 3).
 TEST(ForceStatistics, IntervalsAreThoseOfTenPeople) {
   std::array<std::size_t, FORCE_CHOICES> half{};

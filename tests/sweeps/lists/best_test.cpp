@@ -74,7 +74,7 @@ TEST(Best, ForcesAreTheWorstOverTheFills) {
   ForceBackend backend(scene, make_field_set(best_fields(scene), scene), Precision::full, 1);
   BestGrip best = evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front();
   EXPECT_EQ(best.peak_force, 3);
-  EXPECT_EQ(best.peak_tilt, scene.tilts[1]) << "the listed one that is told to a device's digits";
+  EXPECT_EQ(best.peak_tilt, scene.tilts[1]) << "the listed tilt nearest to the device's number";
   EXPECT_TRUE(std::isinf(best.largest_hold));
   EXPECT_EQ(best.safe_tilt, scene.tilts[2]);
   EXPECT_FALSE(best.is_safe_to_end);
