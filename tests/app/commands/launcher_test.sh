@@ -113,15 +113,6 @@ check "any other command builds the whole program" equal "$("$tree/wholehand" ra
 check "and says so" has "$(cat "$work/err")" "wholehand: building"
 check "which sweeps from there on" equal "$("$tree/wholehand" sweep 2>&1)" "v1[sweep]$work"
 
-# ---- what is watched ----
-parts=$(sed -n "s/^parts='\(.*\)'$/\1/p" "$source_dir/wholehand")
-floors=$(sed -n '/^set(WHOLEHAND_FLOORS/,/)/p' "$source_dir/cmake/folders.cmake" | grep -o '[a-z]*=' | tr -d =)
-check "the floors are found" has "$floors" core
-for folder in $floors; do
-  case $folder in include | library | python) continue ;; esac  # in no program
-  check "a change in $folder/ is seen" has " $parts " " $folder "
-done
-
 # ---- what it costs: printed, not judged ----
 measure() { local began=$EPOCHREALTIME; for _ in 1 2 3 4 5 6 7 8 9 10; do "$@" >/dev/null 2>&1; done; echo $(((${EPOCHREALTIME/./} - ${began/./}) / 10)); }
 with=$(measure "$tree/wholehand")

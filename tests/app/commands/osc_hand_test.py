@@ -20,7 +20,7 @@ import unittest
 from netCDF4 import Dataset
 
 PROGRAM = os.environ["WHOLEHAND_PROGRAM"]
-ROOT = os.path.join(os.path.dirname(__file__), "../..")
+ROOT = os.path.join(os.path.dirname(__file__), "../../..")
 EXAMPLE = os.path.join(ROOT, "examples/engine/osc_hand.py")
 PATIENCE = 60  # s
 ATTEMPTS = 5  # on a machine that is too busy to let a sender through for 50 ms

@@ -404,7 +404,8 @@ class Ranks(Job):
             self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.nc")])
 
     def test_one_job_writes_a_file(self):
-        path = self.write("large.toml", LARGE)
+        # longer than a second job takes to start
+        path = self.write("large.toml", LARGE.replace("count = 600", "count = 2400"))
         first = self.start(self.command(2, path, "-o", "one.nc"))
         for _ in range(600):
             if os.path.exists(self.path("one.nc.partial")):
