@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who evaluates many grips: the core on threads, or a Vulkan device. Both give the same planes in the same order.
+// Evaluates many grips: the core on threads, or a Vulkan device. Both give the same planes in the same order.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ struct BackendInfo {
   std::string driver;   // driver name and version; compiler for the core
   Precision precision = Precision::full;
   bool is_cpu = true;
-  double compile_seconds = 0;  // that opening it spent on kernels
+  double compile_seconds = 0;  // time that opening it spent on kernels
 };
 
 // Writes the grips first .. first + count - 1 of a vessel's plan to `out`. Called from any thread.
@@ -44,8 +44,8 @@ struct RunRequest {
   GripSource grips;
   ChunkSink sink;        // may be empty when nothing is kept
   std::size_t best = 0;  // candidates wanted, by score descending, then index ascending; only eligible ones (shaders/status.h)
-  // The least score that the caller wants, which may rise while the run goes on. A grip whose score stays below it at any effort gets no efforts:
-  // its status has STATUS_UNJUDGED, its score is 0, and its efforts are NaN. Null: every plausible grip gets them.
+  // The lowest score that the caller wants, which may rise during the run. A grip whose score stays below it at any effort gets no efforts: its
+  // status has STATUS_UNJUDGED, its score is 0, and its efforts are NaN. Null: every plausible grip gets efforts.
   const std::atomic<double>* least_score = nullptr;
   const std::atomic<bool>* stop = nullptr;  // set: finish the chunks under way, deliver them, return
 };
@@ -54,7 +54,7 @@ struct RunResult {
   std::vector<Candidate> best;
   std::uint64_t done = 0;  // grips delivered
   std::uint64_t chunks = 0;
-  double kernel_seconds = 0;       // device (or core threads') time in kernels
+  double kernel_seconds = 0;       // time of the device (or the core's threads) in kernels
   std::vector<std::string> notes;  // "out of memory: chunks of 4096", "device lost: ..."; each once
 };
 
@@ -64,10 +64,10 @@ class Backend {
   virtual const BackendInfo& info() const = 0;
   virtual const FieldSet& fields() const = 0;
   virtual RunResult run(const RunRequest& request) = 0;
-  // Liquid of a vessel over the scene's fills and tilts, fill-major; empty where the scene has none.
+  // Liquid of a vessel over the scene's fills and tilts, fill-major; empty if the scene has none.
   virtual std::vector<LiquidResult> liquid(std::size_t vessel) = 0;
-  // Goes on as if it had been opened with `other`, which differs from its scene in the vessels' fills alone, and has as many of them: to the same
-  // bits, and for much less than opening a device costs. False: it does not, and nothing has changed.
+  // Continues as if opened with `other`, which may differ only in the values, not the number, of the vessels' fills. The results have the same bits,
+  // and this costs much less than opening a device. Returns false, and changes nothing, if `other` does not qualify.
   virtual bool use_fills_of(const Scene& /*other*/) { return false; }
 };
 

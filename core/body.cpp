@@ -25,10 +25,9 @@ Real nearest_share(Real x) {
   return std::min(x, Real(1));
 }
 
-// The shares s and t of the way along either axis make |a + s u - b - t v| least: first s on the two lines, then the t that belongs to it,
-// and where t leaves its bone, the s that belongs to that end. Where axes are parallel, s may be any, and radii that differ along a bone
-// would make the answer a matter of rounding: the ends are evaluated too, and the overlap is largest at one of them, unless the least
-// distance of the axes says that no place can matter.
+// The shares s and t along the two axes minimize |a + s u - b - t v|: first s on the two lines, then the matching t, and if t leaves its bone, the s
+// that matches that end. If the axes are parallel, s is arbitrary, and radii that vary along a bone would make the answer depend on rounding. So the
+// ends are evaluated too: the overlap is largest at one of them, unless the least distance of the axes shows that no place can matter.
 Real bones_overlap(Vec3 a, Vec3 a_end, Vec2 a_radii, Vec3 b, Vec3 b_end, Vec2 b_radii, Real deepest) {
   const Vec3 u = a_end - a, v = b_end - b, r = a - b;
   const Real uu = glm::dot(u, u), vv = glm::dot(v, v);

@@ -9,17 +9,17 @@
 
 namespace wholehand {
 
-// Order of the best: by score descending, then index ascending. Total, so that merging in any order gives the same list.
+// Order of the best: by score descending, then index ascending. The order is total, so merging in any order gives the same list.
 bool is_better(const Candidate& a, const Candidate& b);
 
-// The `size` best of all candidates offered; bounded memory, log(size) a candidate that gets in.
+// The `size` best of all offered candidates. Memory is bounded; an accepted candidate costs log(size).
 class BestCandidates {
  public:
   explicit BestCandidates(std::size_t size) : size_(size) {}
   void offer(const Candidate& candidate);
   void offer(const std::vector<Candidate>& candidates);
-  bool takes(const Candidate& candidate) const;  // whether it would get in
-  double least() const;                          // the score below which none gets in; NO_LEAST_SCORE while there is room
+  bool takes(const Candidate& candidate) const;  // whether it would be accepted
+  double least() const;                          // lower scores are rejected; NO_LEAST_SCORE while there is room
   std::vector<Candidate> sorted() const;         // the best first
 
  private:

@@ -11,7 +11,7 @@
 namespace wholehand {
 namespace {
 
-constexpr double WIDER = 0.1e-3;  // m: by how much a cavity is wider above and beneath a narrow place
+constexpr double WIDER = 0.1e-3;  // m: the margin by which a cavity is wider above and beneath a narrow place
 constexpr double SAME = 1e-9;     // m: radii that differ by rounding
 
 // The volume of the cavity below a height.
@@ -57,7 +57,7 @@ std::optional<Narrow> narrow_place(const VesselData& vessel, double limit) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& [radius, height] = points[i];
     const bool is_narrow = radius < limit && std::min(beneath, above[i + 1]) > radius + WIDER;
-    // a stem that is equally narrow all along counts at its upper end
+    // a stem of constant width counts at its upper end
     if (is_narrow && (!narrow || radius <= narrow->radius + SAME)) narrow = Narrow{height, radius, 0};
     beneath = std::max(beneath, radius);
   }

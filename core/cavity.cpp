@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The inner offset of an outline as exact curves. At a height y every element blocks the radii within `wall` of it; the cavity reaches
-// from the axis to the first blocked radius. That boundary is made of few kinds of curve (the circle about an element's end, the
-// element's own offset on either side), each known in closed form, so that only the heights where one gives way to another are searched.
+// The inner offset of an outline as exact curves. At a height y every element blocks the radii within `wall` of it; the cavity reaches from the axis
+// to the first blocked radius. That boundary consists of few kinds of curve (the circle about an element's end, the element's own offset on either
+// side), each known in closed form, so only the heights where one replaces another must be searched.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -51,8 +51,8 @@ std::optional<double> curve_radius(const PreparedElement& element, int kind, dou
   return element.center[0] + element.side * std::sqrt((radius - rise) * (radius + rise));
 }
 
-// First blocked radius at y; nothing where no element reaches that height. Curves that touch (an offset and the circle it runs into)
-// count as different only beyond rounding, the offset first, so that no sliver of the other appears at their joint.
+// First blocked radius at y; nothing if no element reaches that height. Curves that touch (an offset and the circle that continues it) count as
+// different only beyond rounding, the offset first, so that no sliver of the other appears at their joint.
 constexpr double SAME_RADIUS = 1e-13;  // m
 
 // Elements whose curves may be met at heights from low to high: none is further than the wall from its element.
@@ -121,7 +121,7 @@ PreparedElement piece_of(const PreparedElement& element, Curve curve, double wal
   return piece;
 }
 
-// A curve's value just beyond its ends is absent by rounding: evaluate slightly inside and let the exact curve carry to the end.
+// Rounding makes a curve's value just beyond its ends absent: evaluates slightly inside, and extends the exact curve to the end.
 double settle(const PreparedElement& piece, double y) {
   if (piece.side == 0) {
     const double dy = piece.b[1] - piece.a[1];
@@ -195,7 +195,7 @@ class InnerWall {
     }
   }
 
-  // The cavity is one radius a height: no free room may lie beyond it.
+  // The cavity has one radius per height: no free room may lie beyond it.
   void check_folds() const {
     const double floor = pieces_.front().a[1];
     for (int i = 0; i < 128; ++i) {
@@ -229,7 +229,7 @@ class InnerWall {
     return !blocked || blocked->radius <= 0 ? std::nullopt : std::optional<Curve>(blocked->curve);
   }
 
-  // From the curve just above `low` to the one just below `high`; between them at most one gives way.
+  // From the curve just above `low` to the one just below `high`; at most one change lies between them.
   void follow_step(double low, double high) {
     const double inset = (high - low) * 1e-7;
     double at = low + inset;
@@ -250,7 +250,7 @@ class InnerWall {
     }
   }
 
-  // Where the current curve ends, which is there at `below` and not at `above`: by bisection.
+  // Where the current curve ends, which exists at `below` and not at `above`: by bisection.
   double end_of_current(double below, double above) const {
     for (int step = 0; step < 200 && above - below > 1e-17; ++step) {
       const double middle = 0.5 * (below + above);

@@ -6,9 +6,8 @@
 
 namespace CORE_NS {
 
-// Sphere tracing from a sphere that holds the vessel: sdf - radius is a lower bound of the way to go, so no first touch is passed
-// over; so is the way to the nearest element's tangent plane, as long as no other element is met before it. The line leaves the bounds
-// on the far side where it misses.
+// Sphere tracing from a sphere that encloses the vessel: sdf - radius is a lower bound of the remaining way, so no first touch is missed. So is the
+// way to the nearest element's tangent plane, unless another element is met before it. A line that misses leaves the bounds on the far side.
 Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading, Real radius) {
   const Vec3 center(0, vessel.bound_height, 0);
   const Real middle = glm::dot(center - origin, direction);
@@ -110,7 +109,7 @@ Closing close_fingers(const Hand& hand, const Vessel& vessel, Grip grip) {
   closing.reason = REASON_TOO_NARROW;
   if (closing.gap < scale * hand.gap_closed || closing.gap < thumb_radius + index_radius) return closing;
   closing.closure = closure_of_gap(hand, closing.gap / scale, hand.limits.stop_tolerance / scale);
-  // too narrow as well: the hand's lateral axis lies so near to the line of the tips that it gives no direction across
+  // also too narrow: the hand's lateral axis is so close to the line of the tips that it gives no sideways direction
   Real e1_x = 0;
   closing.placement = place_hand(hand, closing.closure, d, grip.roll, closing.midpoint, scale, e1_x);
   if (std::abs(e1_x) > Real(LARGEST_E1_X)) return closing;
@@ -118,7 +117,7 @@ Closing close_fingers(const Hand& hand, const Vessel& vessel, Grip grip) {
   closing.reason = REASON_ON_MOUTH;
   if (vessel.lid >= 0 && (index.element == vessel.lid || thumb.element == vessel.lid)) return closing;
   closing.reason = REASON_NONE;
-  // how squarely the tips press: what the friction cone is compared with, and where a hit is not sharp
+  // the tips' contact angles: compared with the friction cone, and a measure of how sharp a hit is
   closing.index_angle = angle_between(index.normal, d);
   closing.thumb_angle = angle_between(thumb.normal, -d);
   closing.grazing =

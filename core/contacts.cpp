@@ -12,9 +12,9 @@ using wholehand::finger_start;
 
 namespace {
 
-// Where a point that touches presses: the surface's nearest place and the inward unit normal there, q = x - sdf(x) grad sdf(x) and
-// n = -grad sdf(x): with an exact distance its gradient at the nearest point is that at x. False: on the lid that closes the mouth of a solid
-// vessel, where nothing is.
+// Where a touching point presses: the nearest point of the surface and the inward unit normal there, q = x - sdf(x) grad sdf(x) and n = -grad sdf(x),
+// because an exact distance has the same gradient at x and at its nearest point. False: on the lid that closes the mouth of a solid vessel, where
+// there is nothing.
 bool presses_at(const Vessel& vessel, Vec3 p, Vec3& place, Vec3& normal) {
   int element = -1;
   const Vec3 outward = distance_gradient(vessel, p, element);

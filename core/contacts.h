@@ -14,11 +14,11 @@ namespace CORE_NS {
 // A point's contact: separation sdf - radius (m), and its proxy.
 struct Contact {
   Real separation = 0;
-  Vec3 proxy{};         // the point itself where it does not penetrate
-  bool settled = true;  // false: the proxy took all its steps
+  Vec3 proxy{};         // the point itself if it does not penetrate
+  bool settled = true;  // false: the proxy used up its steps
 };
 
-// A joint that presses, or a sphere of the bone that ends at it, and where and how.
+// A pressing joint, or a pressing sphere of the bone that ends at it, with the place and direction.
 struct PressingJoint {
   int joint = 0;
   int between = 0;  // number of the sphere on the bone, from 1; 0: the joint itself
@@ -27,17 +27,17 @@ struct PressingJoint {
 
 // The contact of a point of `radius` m at p.
 Contact contact_at(const Vessel& vessel, Vec3 p, Real radius);
-// The joints of `touch_mask` (kernel 4: thumb and index tips always, the others within the contact tolerance) in their order: each at the
-// surface's nearest point, along the inward normal there. A metacarpal base belongs to the palm. A joint on the lid that closes the mouth of a
-// solid vessel presses on nothing. Returns how many there are.
+// The contacts of `touch_mask`'s joints (kernel 4: thumb and index tips always, the others within the contact tolerance), in order: each at the
+// nearest point of the surface, along the inward normal there. A metacarpal base belongs to the palm. A joint on the lid that closes the mouth of a
+// solid vessel makes no contact. Returns the number of contacts.
 int find_contacts(const Vessel& vessel, const std::array<Vec3, JOINTS>& posed, std::uint32_t touch_mask,
                   std::array<PressingJoint, JOINTS>& pressing);
-// The same, and after them the touching spheres between the joints. A digit presses with as many spheres of its phalanges as it has joints
-// that do not touch, from the palm outwards; a metacarpal bone with one, where its base does not touch, as a part of the palm. So no hand
-// has more contacts than joints, and what is left out can only make an effort larger. `scale`: of the placed hand.
+// The same, followed by the touching spheres between joints. A digit gets at most as many sphere contacts as its phalanges have joints that do not
+// touch, from the palm outward. A metacarpal bone gets one, as part of the palm, if its base does not touch. So no hand has more contacts than
+// joints, and omissions can only make an effort larger. `scale`: of the placed hand.
 int find_contacts(const Hand& hand, const Vessel& vessel, const std::array<Vec3, JOINTS>& posed, Real scale,
                   std::uint32_t touch_mask, std::array<PressingJoint, JOINTS>& pressing);
-// The scale at which a hand is placed, from where it is: no pose moves a metacarpal bone.
+// The scale of a placed hand, recovered from its joints: no pose moves a metacarpal bone.
 Real placed_scale(const Hand& hand, const std::array<Vec3, JOINTS>& posed);
 
 }  // namespace CORE_NS

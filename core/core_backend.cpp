@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t CHUNK = 512;  // grips at most
 constexpr std::size_t LEAST_CHUNK = 16;
 constexpr std::size_t CHUNK_STATES =
-    80'000;  // of all its grips at most: a few hundredths of a second of one thread, so that a run stops soon
+    80'000;  // of all its grips at most: some hundredths of a second of one thread, so that a run stops soon
 
 #ifdef __clang__
 constexpr const char* COMPILER = __VERSION__;

@@ -55,7 +55,7 @@ std::pair<const VesselData*, double> lightest(const Scene& scene) {
   return light;
 }
 
-// The force that holds a vessel at its heaviest, with the longest lever about a line within its height, N; 0 where no force does.
+// The force that holds a vessel at its heaviest, with the longest lever about a line within its height, N; 0 if no force does.
 double largest_hold(const Scene& scene, const VesselData& data) {
   const ForceData& force = scene.force;
   if (scene.tilts.empty() || !(force.friction > 0)) return 0;
@@ -83,7 +83,7 @@ std::vector<std::string> domain_warnings(const Scene& scene, Precision precision
   const std::vector<double>& scales = scene.grips.hand_scale.values;
   const auto [least, most] = std::minmax_element(scales.begin(), scales.end());
   const double smallest = scene.hand.scale * *least, largest = scene.hand.scale * *most;
-  const double rounding = 1e-12;  // of the products and conversions: the limits themselves are within
+  const double rounding = 1e-12;  // of the products and conversions: the limits themselves are inside
   if (smallest < SMALLEST_HAND * (1 - rounding))
     warnings.push_back(beyond(fmt::format("hand scale {:.3g}", smallest), fmt::format("a smallest of {}", SMALLEST_HAND)));
   if (largest > LARGEST_HAND * (1 + rounding))

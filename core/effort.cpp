@@ -14,14 +14,14 @@ namespace {
 constexpr Real NEVER = std::numeric_limits<Real>::infinity();
 constexpr Real ROUNDING = EFFORT_ROUNDING;
 constexpr Real LEAST_PIVOT =
-    SINGLE ? Real(1e-4) : Real(1e-9);      // of the largest of its column; where there is none, of what its row sums
-constexpr int FRESH_PIVOTS = 50;           // pivots after which the inverse is made anew
-constexpr Real LEAST_LENGTH = Real(1e-3);  // m: of a single contact, which has no extent
-// Largest cost of a basis in units of an artificial column of the load's size: the first one costs sqrt 6 of them, and
-// pivots lower it. What costs more is rounding, of a friction of 1e-200 for example.
+    SINGLE ? Real(1e-4) : Real(1e-9);      // of the largest of its column; if there is none, of the sum of its row
+constexpr int FRESH_PIVOTS = 50;           // pivots after which the inverse is recomputed
+constexpr Real LEAST_LENGTH = Real(1e-3);  // m: for a single contact, which has no extent
+// Largest cost of a basis in units of an artificial column of the load's size: the first one costs sqrt 6 of them, and pivots lower it. A higher cost
+// is rounding, for example with a friction of 1e-200.
 constexpr Real FIRST_COST = Real(3);
-constexpr Real MOST_TOLERANCE = Real(0.1), WIDER = 4;          // of a bracket that is all that can be had, and from try to try
-constexpr Real UNBALANCED = SINGLE ? Real(1e-2) : Real(1e-9);  // of a load: forces that leave more of it are no answer
+constexpr Real MOST_TOLERANCE = Real(0.1), WIDER = 4;          // of the widest acceptable bracket, and from try to try
+constexpr Real UNBALANCED = SINGLE ? Real(1e-2) : Real(1e-9);  // of a load: forces that leave more of it unbalanced are no answer
 
 template <class Six>
 Real dot6(const Six& a, const Six& b) {
@@ -46,7 +46,7 @@ Slip slip_of(Vec3 arm, Vec3 normal, Real gamma, const std::array<Real, 6>& direc
   const Vec3 turning = second(direction);
   slip.velocity = first(direction) + glm::cross(turning, arm);
   slip.spin = gamma * glm::dot(turning, normal);
-  // at right angles to n even where it is next to nothing beside n.v
+  // perpendicular to n even if it is tiny beside n.v
   slip.across = glm::cross(glm::cross(normal, slip.velocity), normal);
   slip.root = std::sqrt(glm::dot(slip.across, slip.across) + slip.spin * slip.spin);
   return slip;
@@ -97,7 +97,7 @@ EffortSolver::EffortSolver(std::span<const ContactPoint> contacts, const HandStr
   }
 }
 
-// The wrench that balances a load, in the solver's units. A lever that two tips alone cannot hold is taken as long as the unit: rounding would
+// The wrench that balances a load, in the solver's units. A lever that two tips alone cannot hold is lengthened to the unit, because rounding would
 // hide a shorter one.
 EffortSolver::Vec6 EffortSolver::wanted_for(const Wrench& load) const {
   Vec3 moment = load.moment - glm::cross(center_, load.force);
@@ -115,7 +115,7 @@ Vec3 EffortSolver::arm(const ContactPoint& contact) const { return (contact.plac
 
 Real EffortSolver::gamma() const { return hand_.torsion / unit_length_; }
 
-// For each digit, the contact that does most along a direction, where it does more than nothing.
+// For each digit, the contact with the largest support along a direction, if positive.
 EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
   Best best;
   best.fill(-1);
@@ -130,7 +130,7 @@ EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
   return best;
 }
 
-// h(u), and the point of Z where it is attained.
+// h(u), and the point of Z that attains it.
 Real EffortSolver::support(const Vec6& direction, Vec6& point) const {
   const Best best = best_contacts(direction);
   for (std::size_t k = 0; k < 6; ++k) point[k] = -displaced_[k];
@@ -171,8 +171,8 @@ EffortSolver::Reach EffortSolver::reach(const Vec6& direction, Real friction) co
   return sum;
 }
 
-// h(u) is convex and piecewise linear in the friction: from below, the first step of Newton's method leads beyond the root; from above
-// its steps come down to the root and end in it.
+// h(u) is convex and piecewise linear in the friction. From below, the first step of Newton's method leads beyond the root; from above, its steps
+// descend to the root and end there.
 Real EffortSolver::least_friction(const Wrench& load, Real most) const {
   const Real value = dot6(cut_, wanted_for(load));
   Real friction = hand_.friction;
@@ -197,9 +197,8 @@ EffortSolver::Vec6 EffortSolver::levels(const Vec6& wanted) const {
   return levels;
 }
 
-// Six artificial columns, which no contact carries, at right angles and with equal shares of `wanted`: a basis with a level of 0
-// would be degenerate from the start. They are the columns of the reflection that takes (1, .., 1) / sqrt 6 to the unit vector
-// along `wanted`.
+// Six artificial columns, which no contact carries, at right angles and with equal shares of `wanted`, because a basis with a level of 0 would be
+// degenerate from the start. They are the columns of the reflection that takes (1, .., 1) / sqrt 6 to the unit vector along `wanted`.
 void EffortSolver::begin(const Vec6& wanted) {
   const Real size = std::sqrt(dot6(wanted, wanted));
   Vec6 mirror{};
@@ -219,8 +218,7 @@ void EffortSolver::begin(const Vec6& wanted) {
   has_basis_ = true;
 }
 
-// The last basis for another load: a column whose level would be negative gives way to an artificial one the other way, of unit
-// length.
+// The last basis for another load: a column whose level would be negative is replaced by an opposite artificial one of unit length.
 void EffortSolver::restart(const Vec6& wanted) {
   const Vec6 now = levels(wanted);
   const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
@@ -233,8 +231,8 @@ void EffortSolver::restart(const Vec6& wanted) {
   }
 }
 
-// The column takes the place of the one whose level comes to zero first; of equal ones an artificial one. An artificial column that
-// carries nothing leaves before any other, lest it carry something afterwards. False: there is none.
+// The column replaces the one whose level first reaches zero; in a tie, an artificial one. An artificial column that carries nothing leaves before
+// any other, because it might carry something afterwards. False: there is none.
 bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
   const Vec6 turned = levels(column.point), now = levels(wanted);
   const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
@@ -248,7 +246,7 @@ bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
   scales.fill(largest);
   bool has_pivot = false;
   for (std::size_t r = 0; r < 6; ++r) has_pivot = has_pivot || may_leave(r, largest);
-  if (!has_pivot) {  // a pivot that is small beside the others of its column is still one where it is large beside its own rounding
+  if (!has_pivot) {  // a pivot that is small beside the others of its column still counts if it is large beside its own rounding
     scales.fill(0);
     for (std::size_t r = 0; r < 6; ++r)
       for (std::size_t k = 0; k < 6; ++k) scales[r] += std::abs(inverse_[r][k] * column.point[k]);
@@ -278,7 +276,7 @@ bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
   return true;
 }
 
-// The inverse anew from the columns, by elimination with row pivots: rank-one updates gather rounding. False: it is singular.
+// Recomputes the inverse from the columns, by elimination with row pivots, because rank-one updates accumulate rounding. False: it is singular.
 bool EffortSolver::invert() {
   std::array<std::array<Real, 12>, 6> rows{};
   for (std::size_t r = 0; r < 6; ++r)
@@ -305,7 +303,7 @@ bool EffortSolver::invert() {
   return true;
 }
 
-// Cost of the levels, and the share of them that no contact carries.
+// Cost of the levels, and the part of them that no contact carries.
 EffortSolver::Cost EffortSolver::cost_of(const Vec6& levels) const {
   Cost cost;
   for (std::size_t r = 0; r < 6; ++r) {
@@ -324,7 +322,7 @@ Real EffortSolver::bound(const Wrench& load) const {
   return cost.least < -rounding || cost.artificial > rounding ? NEVER : cost.real;
 }
 
-// Length of what the last levels leave of a wrench; levels below zero count as 0.
+// Length of a wrench's part that the last levels leave unbalanced; levels below zero count as 0.
 Real EffortSolver::unbalanced(const Vec6& wanted) const {
   Vec6 rest = wanted;
   for (std::size_t r = 0; r < 6; ++r)
@@ -332,9 +330,8 @@ Real EffortSolver::unbalanced(const Vec6& wanted) const {
   return std::sqrt(dot6(rest, rest));
 }
 
-// What the basis says a wrench is worth: u = costs times inverse. Costs are 1 for artificial columns and 0 for the others while
-// artificial columns carry something, and the other way round after that: one great cost for the artificial columns would take as
-// many digits of u.
+// The basis's prices for a wrench: u = costs times inverse. While artificial columns carry something, costs are 1 for them and 0 for the others;
+// after that the reverse. One large cost for the artificial columns would cost u as many digits.
 EffortSolver::Column EffortSolver::priced(bool is_short) const {
   Column column;
   for (std::size_t r = 0; r < 6; ++r) {
@@ -348,8 +345,8 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
   return search(load, tolerance, enough, too_much, EFFORT_PIVOTS);
 }
 
-// (-w).u / h(u) is a lower bound of the effort for any u, and the levels' sum an upper one once no artificial column carries
-// anything. A point of Z that is worth more than the columns of the basis enters.
+// (-w).u / h(u) is a lower bound of the effort for any u, and the levels' sum an upper one once no artificial column carries anything. A point of Z
+// with a higher price than the columns of the basis enters.
 Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Real too_much, int most_pivots) {
   Effort answer;
   last_ = {};
@@ -393,15 +390,15 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
     if (is_beyond || answer.pivots == most_pivots) break;
     if (height > (is_short ? Real(0) : Real(1)) && enter(column, wanted)) {
       is_fresh = false;
-    } else if (is_fresh || !invert()) {  // what ends the search may be the rounding that the inverse has gathered
+    } else if (is_fresh || !invert()) {  // the end of the search may be due to accumulated rounding of the inverse
       break;
     } else {
       is_fresh = true;
     }
   }
   bool is_certain = !std::isfinite(answer.low);
-  // Where the digits' strengths are far apart, or columns nearly parallel, those that bring the last of the tolerance may leave forces that
-  // do not balance. All tries together take no more pivots than one may. The last try answers with those before.
+  // If the digits' strengths are far apart, or columns nearly parallel, the columns of the last part of the tolerance may leave forces that do not
+  // balance. All tries together take no more pivots than one may. The last try answers with the previous ones.
   const bool is_last_try = !is_warm && (answer.pivots >= most_pivots || tolerance >= MOST_TOLERANCE);
   for (const bool is_end : {true, false}) {
     if (is_certain || (!is_end && !(is_last_try && is_balanced))) break;
@@ -420,13 +417,13 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
       answer.low = std::min(answer.low, answer.effort);
       return answer;
     }
-    // Artificial columns carry only rounding here: the direction of a load that nothing resists would have shown it.
+    // Artificial columns carry only rounding here; otherwise the direction of an unresisted load would have shown it.
     is_certain = is_carried && is_dear;
   }
   answer.effort = NEVER;
   if (is_beyond) return answer;
   has_basis_ = false;
-  if (is_warm) {  // a basis of another load may end in a corner; that nothing holds must be found from the start
+  if (is_warm) {  // a basis of another load may end in a corner; only a search from the start proves that nothing holds
     const int pivots = answer.pivots;
     answer = search(load, tolerance, enough, too_much, EFFORT_PIVOTS);
     answer.pivots += pivots;
@@ -444,7 +441,7 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
   return answer;
 }
 
-// Subtracts the rounding of the product: over the tiny height of a direction that no contact opposes, it could make any bound.
+// Subtracts the rounding of the product: for a direction with a tiny support that no contact opposes, it could produce any bound.
 Real EffortSolver::low(const Wrench& load) const {
   const Vec6 wanted = wanted_for(load);
   const Real value = dot6(cut_, wanted) - ROUNDING * std::sqrt(dot6(cut_, cut_) * dot6(wanted, wanted));

@@ -56,7 +56,7 @@ Limits limits_of(const wholehand::EvaluatorOptions& options) {
 }
 
 bool is_antipodal(const GripAnswer& answer) { return (answer.status & STATUS_ANTIPODAL) != 0; }
-// From here on there are a gap and a midpoint.
+// From here on, gap and midpoint exist.
 bool has_closed(const Closing& closing) { return closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE; }
 
 // One grip's place in the planes.
@@ -368,7 +368,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     row.put_mask(FIELD_USED_MASK, answer.used_mask);
   }
 
-  // Where a posed hand presses: all of it, and the tips of thumb and index finger alone.
+  // Contacts of a posed hand: all of it, and the tips of thumb and index finger alone.
   struct HeldHand {
     std::array<ContactPoint, JOINTS> contacts;
     std::array<ContactPoint, 2> tips;
@@ -427,7 +427,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     return found.worst;
   }
 
-  // State by state, where they are asked for.
+  // State by state, on request.
   void put_state_efforts(const PlaneRow& row, const HeldHand& hand, const GripLoads& loads) const {
     const bool of_all = row.fields.has(FIELD_EFFORT) || row.fields.has(FIELD_EFFORT_LOW);
     const bool of_tips = row.fields.has(FIELD_TIPS_EFFORT) || row.fields.has(FIELD_HOLD_FORCE);
@@ -498,12 +498,12 @@ class CoreEvaluator final : public wholehand::Evaluator {
     row.put(FIELD_SCORE, 0, wholehand::is_eligible(status) ? states_.weighted(terms) : Real(0));
   }
 
-  // False in a scene without efforts and for a grip that is not judged: nobody knows there.
+  // False in a scene without efforts and for an unjudged grip, where it is unknown.
   static bool is_not_held(bool is_judged, const LargestForces& largest) {
     return is_judged && largest.effort && !effort_holds(*largest.effort);
   }
 
-  // How a grip of this result holds its vessel, in the world of the right hand.
+  // How this result's grip holds its vessel, in the world of the right hand.
   Pinch pinch_of(const GripInput& input, const GripResult& result) const {
     const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
     return {grip_direction(Real(grip.azimuth), Real(grip.obliquity)),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The core behind plain doubles, so that either precision of it can be linked side by side: `core_f64` is the reference and drives
-// the product, `core_f32` measures what single precision costs.
+// The core with an interface of plain doubles, so that both precisions can be linked: `core_f64` is the reference and drives the product; `core_f32`
+// measures what single precision costs.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace wholehand {
 
 struct PreparedLattice;  // core/prepare.h
 
-// How a scene is evaluated, beyond what it says: for measuring shortcuts, not for users.
+// Evaluation options beyond the scene, for measuring shortcuts, not for users.
 struct EvaluatorOptions {
   int lattice_samples = 0;  // > 0: replace each outline by a regular lattice of that many samples along its longest side
   int lattice_bits = 32;    // of a sample: 32, or 16 (half precision)
@@ -30,8 +30,8 @@ struct EvaluatorOptions {
   int gap_table = 0;  // > 0: the closure by interpolation in a table of so many entries, 2..GAP_TABLE_LARGEST; 0: solved
 };
 
-// What is known of a vessel before any grip; SI. `largest` is the load upright at the scene's largest fill: glass and liquid together,
-// the liquid's share of the mass, and that share's part of the height of the center of mass.
+// Facts of a vessel, independent of grips; SI. `largest` is the load upright at the scene's largest fill: mass of glass and liquid, the liquid's
+// share of it, and that share's part of the center of mass's height.
 struct VesselConstants {
   double capacity = 0;          // m3, upright to the brim; 0 without a cavity
   double mass = 0;              // empty, kg
@@ -40,7 +40,7 @@ struct VesselConstants {
   double largest_mass = 0, largest_share = 0, largest_height = 0;
 };
 
-// A scene made ready for the kernels. Immutable after construction; every method may be called from any thread.
+// A scene prepared for the kernels. Immutable after construction; any thread may call every method.
 class Evaluator {
  public:
   virtual ~Evaluator() = default;
@@ -48,7 +48,7 @@ class Evaluator {
   // One grip with every intermediate value. Allocates nothing.
   virtual void grip(std::size_t vessel, const GripInput& grip, GripResult& result) const = 0;
 
-  // Liquid of one vessel at a fill (fraction of the capacity) and tilt (rad, 0..pi), what poured on the way there included.
+  // Liquid of one vessel at a fill (fraction of the capacity) and tilt (rad, 0..pi), minus what poured on the way there.
   virtual LiquidResult liquid(std::size_t vessel, double fill, double tilt) const = 0;
 
   // Force of a feasible grip holding `liquid` at `tilt`. `opening` is g_grasp - g of the device, m.
@@ -58,15 +58,14 @@ class Evaluator {
   // Scores over the scene's fills and the tilts that count there (core/counted_tilts.h).
   virtual GripScore score(std::size_t vessel, const GripInput& grip, const GripResult& result) const = 0;
 
-  // Where the posed hand of a feasible grip presses (kernel 9). An evaluator that knows no contacts has none.
+  // Where the posed hand of a feasible grip presses (kernel 9). None if the evaluator does not compute contacts.
   virtual std::vector<GripContact> contacts(std::size_t vessel, const GripResult& result) const;
 
-  // The joints of a grip's posed hand alone, vessel frame, m; nothing where the grip is infeasible.
+  // Only the joints of a grip's posed hand, vessel frame, m; nothing if the grip is infeasible.
   virtual std::optional<PosedHand> posed(std::size_t vessel, const GripInput& grip) const;
 
-  // `count` grips into planes of `stride` doubles (uints likewise). Infeasible grips get NaN reals from the
-  // first that does not exist (t, gap and midpoint do from too_wide on); score and terms 0. States that are left out are NaN.
-  // `least_score` as of RunRequest.
+  // Evaluates `count` grips into planes of `stride` doubles (uints likewise). Infeasible grips have NaN reals (but t, gap and midpoint from too_wide
+  // on); score and terms are 0. States that are left out are NaN. `least_score`: see RunRequest.
   virtual void planes(std::size_t vessel, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride,
                       double* reals, std::uint32_t* uints, double least_score = NO_LEAST_SCORE) const = 0;
 
@@ -81,14 +80,14 @@ class Evaluator {
   virtual double pouring_tilt(std::size_t vessel, double fill) const = 0;  // rad; NaN where it never pours (nothing in it)
   virtual double gap_at(double closure) const = 0;                         // g(c) at hand scale 1 times the scene's, m
 
-  // The samples that stand for a vessel's outline; null where none do.
+  // The samples that replace a vessel's outline; null if none do.
   virtual const PreparedLattice* lattice(std::size_t vessel) const;
-  // Bytes of all that the kernels read: outlines or lattices, cavities, tables of hand, lips, states and quadrature.
+  // Bytes of everything that the kernels read: outlines or lattices, cavities, tables of hand, lips, states and quadrature.
   virtual std::size_t table_bytes() const { return 0; }
 };
 
-// Prepares a scene. Throws Error (usage) where the scene is physically impossible: a hand whose gap does not fall strictly
-// (with the closure at which it turns), a wall thicker than the vessel, a cavity that folds over itself.
+// Prepares a scene. Throws Error (usage) if the scene is physically impossible: a hand whose gap does not strictly fall (names the closure at which
+// it turns), a wall thicker than the vessel, a cavity that folds over itself.
 std::unique_ptr<Evaluator> make_core_evaluator(const Scene& scene, const EvaluatorOptions& options = {});
 std::unique_ptr<Evaluator> make_core_float_evaluator(const Scene& scene, const EvaluatorOptions& options = {});
 

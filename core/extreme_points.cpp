@@ -42,8 +42,8 @@ std::vector<double> closest_shares(const std::vector<ShareRow>& columns, ShareRo
   return shares;
 }
 
-// Least squares with shares that are not negative (Lawson and Hanson 1974): columns enter while one has a part in the rest, and leave where their
-// share would be negative.
+// Least squares with nonnegative shares (Lawson and Hanson 1974): columns enter while one has a part in the rest, and leave if their share would be
+// negative.
 bool is_sum_of(const std::vector<ShareRow>& columns, const std::vector<std::size_t>& kept, std::size_t point) {
   std::vector<std::size_t> used;
   std::vector<double> shares;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The fills of a scene's vessels, replaced while everything else of the scene stays.
+// Replaces the fills of a scene's vessels and keeps everything else.
 #pragma once
 
 #include "core/scene.h"
 
 namespace wholehand {
 
-// Whether both have liquid or neither has, with as many vessels and as many fills in each.
+// Whether both scenes have liquid or neither has, with the same number of vessels and of fills in each.
 bool have_like_fills(const Scene& a, const Scene& b);
 
 // Gives `scene` the fills of `from`, vessel by vessel. Both have like fills.

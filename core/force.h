@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernel 7: what the fingers feel, and what the physics asks for.
+// Kernel 7: what the fingers feel, and what physics requires.
 #pragma once
 
 #include "core/real.h"
@@ -18,29 +18,29 @@ struct ForceScale {
   Real torsion = 0;                   // gamma, m
 };
 
-// What the glass and its liquid weigh at one fill and tilt: center of mass = fixed + lean n + height y, vessel frame.
+// The weight of glass and liquid at one fill and tilt: center of mass = fixed + lean n + height y, vessel frame.
 struct Load {
   Real mass = 0;              // kg
   Vec3 fixed{};               // the vessel's own share of the center of mass, m
   Real lean = 0, height = 0;  // the liquid's share, m
 };
 
-// Horizontal direction towards which the vessel pours away from the palm, unit: (0, 1, 0) x d made unit; `sense` -1: towards.
+// Horizontal direction in which the vessel pours, away from the palm: (0, 1, 0) x d made unit; `sense` -1: towards the palm.
 Vec3 pour_direction(Vec3 direction, Real sense);
 // Up in the vessel frame at a tilt.
 Vec3 up_direction(Vec3 pour, Real sine_tilt, Real cosine_tilt);
 // Center of mass of a load, m.
 Vec3 load_center(Load load, Vec3 pour);
-// The torque at which the normal force has grown by its whole range, per grip: m g max(L, 5 mm), N m.
+// The per-grip torque at which the normal force has grown by its whole range: m g max(L, 5 mm), N m.
 Real grip_reference(Real mass, Real gravity, Real pivot_length);
-// F_base + F_range tau / tau_ref; F_base where tau_ref is 0. N.
+// F_base + F_range tau / tau_ref; F_base if tau_ref is 0. N.
 Real normal_force(Real base, Real range, Real torque, Real reference);
 // clamp(normal + opening, 0, max), N.
 Real feedback_force(Real normal, Real opening, Real max);
-// The longest lever that is none for contacts without torsion, m. `pivot_length`: from their middle to where the load acts, m.
+// The longest lever that counts as 0 for contacts without torsion, m. `pivot_length`: from their middle to where the load acts, m.
 Real longest_bare_lever(Real pivot_length);
-// The share of their strength that digits have where thumb and index finger lie `opening` apart, m: grip strength over the largest, as
-// measured on cylinders of four diameters. Linear between them; beyond the first and the last as there.
+// The share of their strength that digits have if thumb and index finger are `opening` apart, m: grip strength over the largest, as measured on
+// cylinders of four diameters. Linear between them, constant beyond the first and the last.
 Real strength_at(Real opening);
 
 }  // namespace CORE_NS

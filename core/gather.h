@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All planes of some grips in one place, whichever backend computes them: to compare, or to look up.
+// Gathers all planes of some grips from any backend, to compare or to look up.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ FieldSet all_fields(const Scene& scene);
 GatheredPlanes gather(Backend& backend, std::size_t vessel, const std::vector<GripInput>& grips);
 GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t vessel, const std::vector<GripInput>& grips);
 
-// Liquid of a vessel over the scene's fills and tilts by the core, fill-major, as Backend::liquid; empty without one.
+// Liquid of a vessel over the scene's fills and tilts by the core, fill-major, as in Backend::liquid; empty without liquid.
 std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel);
 
 }  // namespace wholehand

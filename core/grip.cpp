@@ -40,7 +40,7 @@ Vec3 separations_of(const Vessel& vessel, const FingerPoints& points, const Plac
               separation_at(vessel, points.tip, finger.radius[4]));
 }
 
-// Sets the three joints beyond an MCP, and which of a finger's five points touched before they were projected.
+// Sets the three joints beyond an MCP, and which of a finger's five points touched before projection.
 void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger& finger, int f, GripAnswer& answer, int& before) {
   const std::array<Real, 4> radii{finger.radius[1], finger.radius[2], finger.radius[3], finger.radius[4]};
   const RestingFinger resting =
@@ -77,9 +77,8 @@ void pose_paper(const Hand& hand, const Vessel& vessel, const PlacedFinger& fing
   }
 }
 
-// Kernel 4 on the posed hand: masks, depths, proxies and how far these stretch the bones. A finger's base and MCP do not move, so
-// whether they touched before is found here; an articulated finger came to rest with its separations known. The depth that decides whether
-// the grip is plausible.
+// Kernel 4 on the posed hand: masks, depths, proxies and bone stretch. A finger's base and MCP do not move, so this also finds whether they touched
+// before; an articulated finger came to rest with known separations. Returns the depth that decides plausibility.
 Real examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted wanted, Real scale,
                   std::array<int, FINGERS>& before, GripAnswer& answer) {
   Real judged_depth = 0;
@@ -126,7 +125,7 @@ Real examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted 
   return judged_depth;
 }
 
-// Kernel 8: the spheres between the joints of the posed hand have depths as the joints have. The depth that decides, as above.
+// Kernel 8: the spheres between the joints of the posed hand have depths, like joints. Returns the deciding depth, as above.
 Real examine_between(const Hand& hand, const Vessel& vessel, PoseKind pose, Real scale, GripAnswer& answer) {
   Real judged_depth = 0;
   for (int f = 0; f < FINGERS; ++f)
@@ -145,8 +144,8 @@ Real examine_between(const Hand& hand, const Vessel& vessel, PoseKind pose, Real
   return judged_depth;
 }
 
-// Kernel 8: how far the posed hand reaches below the top of the table, and the open hand at the same place, which it has to come from.
-// The open hand's bases, and the MCPs of its fingers, are those of the posed one.
+// Kernel 8: how far the posed hand reaches below the top of the table, and the open hand at the same place, from which it closes. The open hand's
+// bases, and the MCPs of its fingers, are the posed hand's.
 void examine_table(const Hand& hand, const Vessel& vessel, const Placement& placement, GripAnswer& answer) {
   Real depth = -NO_DISTANCE;
   for (int f = 0; f < FINGERS; ++f) {
@@ -167,8 +166,8 @@ void examine_table(const Hand& hand, const Vessel& vessel, const Placement& plac
 
 }  // namespace
 
-// Two phalanges of the thumb and three of each finger: 78 pairs. Most are too far apart to matter, and the spheres around them say so. More
-// of them do if the first depth is that of joints side by side, of neighboring fingers: it is an overlap too, and often nearly the largest.
+// Two phalanges of the thumb and three of each finger make 78 pairs. Most are too far apart to matter, as their enclosing spheres show. More pairs
+// can be skipped if the first depth is that of neighboring fingers' adjacent joints: it is an overlap too, and often nearly the largest.
 Real digits_overlap(const Hand& hand, const std::array<Vec3, JOINTS>& posed, Real scale) {
   std::array<Ball, JOINTS> chain;
   for (int f = 0; f < FINGERS; ++f)
@@ -219,7 +218,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
     fingers[f] = place_finger(hand, closing.placement, f);
     answer.posed[j] = fingers[f].frame.base;
     answer.posed[j + 1] = fingers[f].mcp;
-    // in pose articulated the last three fingers close on their own: their rigged points are only there to be shown
+    // in pose articulated the last three fingers close on their own: their rigged points are only for display
     if (f == 1 || pose != PoseKind::articulated || wanted.joints) {
       const FingerPoints points = finger_points(fingers[f].frame, fingers[f].mcp, fingers[f].lengths, angles);
       answer.posed[j + 2] = points.pip;

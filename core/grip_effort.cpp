@@ -12,7 +12,7 @@ namespace {
 constexpr Real UNHELD = std::numeric_limits<Real>::infinity();
 constexpr Real RISE_TOLERANCE = Real(0.05);  // of an effort that only directs the search
 constexpr int RISE_STEPS = 6;
-// Largest computed effort of a state that takes exactly all of the strength: both ends of its bracket are rounded sums.
+// Largest computed effort of a state that needs exactly all of the strength: both ends of its bracket are rounded sums.
 constexpr Real JUST_HELD = 1 + EFFORT_ROUNDING;
 
 struct Worst {
@@ -20,9 +20,9 @@ struct Worst {
   std::size_t fill = 0, tilt = 0;
 };
 
-// Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may decide without a pivot. Rounding
-// must not decide: forces of an effort of 1 that are computed a little larger hold, and a direction whose bound is computed a little larger
-// does not say that nothing does.
+// Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may decide without a pivot. Rounding must not
+// decide: forces with an effort of 1 still hold if the computed effort is slightly larger, and a direction with a slightly larger computed bound does
+// not prove that nothing holds.
 bool is_held(EffortSolver& solver, const Wrench& load, Real tolerance, int& pivots) {
   if (solver.bound(load) <= JUST_HELD) return true;
   if (solver.low(load) > JUST_HELD) return false;
@@ -31,11 +31,10 @@ bool is_held(EffortSolver& solver, const Wrench& load, Real tolerance, int& pivo
   return found.effort <= JUST_HELD;
 }
 
-// The largest effort over the states of fills first..last - 1. A direction u that certifies one state bounds the effort of all
-// others from below, (-w).u / h(u): the search goes where this bound is largest, not yet exactly, and solves exactly where it
-// stays. Each other state is then compared with that effort alone: mostly the last basis holds it with less, or does after a pivot
-// or two.
-// The tolerance has two halves: an effort is within one of its state's, and a state is skipped within the other of the worst.
+// The largest effort over the states of fills first..last - 1. A direction u that certifies one state bounds the effort of all others from below,
+// (-w).u / h(u). The search goes where this bound is largest, at first inexactly, and solves exactly where it stays. Each other state is then only
+// compared with that effort: mostly the last basis holds it with less, or does after a pivot or two. The tolerance has two halves: an effort is
+// within one of its state's, and a state is skipped within the other of the worst.
 void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first, std::size_t last, Real tolerance, Worst& worst,
                 GripEffort& grip) {
   const Real half = tolerance / 2, margin = 1 + half;
@@ -45,7 +44,7 @@ void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first,
       grip.pivots += found.pivots;
       if (std::isinf(found.effort)) break;
       const std::size_t fill_before = fill, tilt_before = tilt;
-      Real most = found.effort;  // what is certainly more is worse than this state
+      Real most = found.effort;  // a state certainly above this is worse
       for (std::size_t f = first; f < last; ++f)
         for (std::size_t t = 0; t < loads.counted[f]; ++t) {
           const Real low = solver.low(loads.weight(f, t));
@@ -121,7 +120,7 @@ GripEffort grip_effort(std::span<const ContactPoint> contacts, std::optional<std
   return grip;
 }
 
-// The largest push along a direction is one over the gauge, at that direction, of what the hand can carry beside the weight.
+// The largest push along a direction is one over the gauge, in that direction, of what the hand can carry beside the weight.
 Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center,
                Real tolerance) {
   EffortSolver solver(contacts, hand, contacts_center(contacts));
@@ -138,12 +137,12 @@ Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand,
   return 1 / worst;
 }
 
-// More friction holds everything that less holds, so that one way through the states is enough. A direction that certifies an effort
-// above 1 says which friction is needed at least: the search goes there, and a step further, so that it ends. The direction of an
-// effort at another friction says so too: with that of the worst state the search begins.
+// More friction holds everything that less holds, so one pass through the states is enough. A direction that certifies an effort above 1 gives the
+// least friction needed for it: the search goes there, and a step further, so that it ends. The direction of an effort at another friction gives one
+// too, so the search starts with the worst state's.
 Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const GripLoads& loads,
                      const GripEffort& found, Real tolerance) {
-  const Real half = tolerance / 2;  // a bracket of that width about 1 does not say more
+  const Real half = tolerance / 2;  // a bracket of that width about 1 gives no more information
   EffortSolver solver(contacts, hand, contacts_center(contacts));
   Real friction = hand.friction;
   const auto raise_for = [&](const Wrench& weight) {

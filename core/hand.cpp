@@ -40,8 +40,8 @@ FingerPoints thumb_points(FingerFrame frame, Vec3 lengths, Vec3 angles) {
   return points;
 }
 
-// T(c) = index tip - thumb tip. A segment turns at the rate r, the sum of the swings up to its joint, and so moves what is beyond it
-// by r times the segment turned a quarter. T' is the sum of these over the index finger less that over the thumb.
+// T(c) = index tip - thumb tip. A segment turns at the rate r, the sum of the swings up to its joint, and so moves everything beyond it by r times
+// the segment turned a quarter. T' is the sum of these over the index finger minus that over the thumb.
 Vec3 tip_to_tip(const Hand& hand, Real closure, Vec3& slope) {
   const FingerFrame index = hand.frame[1];
   const FingerFrame thumb = hand.frame[0];
@@ -64,8 +64,8 @@ Vec3 tip_to_tip(const Hand& hand, Real closure, Vec3& slope) {
   return finger.tip - opposing.tip;
 }
 
-// Newton on g(c) = gap with g' = T . T' / g. As g falls all the way, the table's cell brackets the answer; a step that leaves the
-// bracket is replaced by its middle.
+// Newton on g(c) = gap with g' = T . T' / g. Because g falls all the way, the table's cell brackets the answer; a step that leaves the bracket is
+// replaced by its middle.
 Real closure_of_gap(const Hand& hand, Real gap, Real tolerance) {
   const int entries = static_cast<int>(hand.gap_table.size());
   const Real span = hand.gap_open - hand.gap_closed;

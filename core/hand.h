@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernel 1: 24 joints from one number. Every finger is a planar chain: from its metacarpal base it runs along `forward` and curls
-// towards `palmward`, so that a segment at the cumulative angle a points along cos a forward + sin a palmward.
+// Kernel 1: 24 joints from one number. Every finger is a planar chain: from its metacarpal base it runs along `forward` and curls towards `palmward`,
+// so that a segment at the cumulative angle a points along cos a forward + sin a palmward.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct FingerFrame {
   Vec3 palmward{};  // unit: the way it curls
 };
 
-// The hand made ready (core/prepare.h), at scale 1: lengths, radii, angles at closure 0 and their swing to closure 1.
+// The prepared hand (core/prepare.h) at scale 1: lengths, radii, angles at closure 0 and their swing to closure 1.
 struct Hand {
   std::array<FingerFrame, FINGERS> frame{};           // hand frame
   std::array<std::array<Real, 4>, FINGERS> length{};  // m
@@ -55,8 +55,8 @@ inline Real gap_at(const Hand& hand, Real closure) {
   Vec3 slope{};
   return glm::length(tip_to_tip(hand, closure, slope));
 }
-// The closure whose gap is `gap` (scale 1, m, within [g(1), g(0)]), to `tolerance` m: Newton from the table, kept in its bracket. With no
-// gap_steps the table's own value, interpolated.
+// The closure whose gap is `gap` (scale 1, m, within [g(1), g(0)]), to `tolerance` m: Newton from the table, kept in its bracket. With gap_steps 0,
+// the table's interpolated value.
 Real closure_of_gap(const Hand& hand, Real gap, Real tolerance);
 
 }  // namespace CORE_NS

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How large a hand is, and hands of people's sizes: lengths by a survey of hand lengths, what lies across by a survey of hand
-// breadths.
+// Sizes of hands: lengths come from a survey of hand lengths, widths and thicknesses from a survey of hand breadths.
 #pragma once
 
 #include "core/scene.h"
@@ -15,17 +14,15 @@ struct HandSize {
 
 HandSize size_of(const HandData& hand);
 
-// Sum of the radii of the tips of thumb and index finger at scale 1, m: a held object is thinner than their gap by this.
+// Sum of the radii of the tips of thumb and index finger at scale 1, m: a held object is this much thinner than their gap.
 double tip_radii(const HandData& hand);
 
-// The hand of `person = "paper"`, scale and limits the default's: as long as the mean adult's, but narrower than 99 of 100
-// hands of women.
+// The hand of `person = "paper"`, with default scale and limits: as long as the mean adult's, but narrower than 99 of 100 women's hands.
 HandData paper_hand();
 
-// Gives the hand a size. All bases and segments take the ratio of the lengths, all radii that of the breadths; the middle, ring
-// and little finger move sideways, as they are, until their knuckles lie apart from the index finger's by the ratio of the
-// breadths. Thumb and index finger therefore keep their form, and the hand closes as it did: its gap is the former one times the
-// ratio of the lengths.
+// Gives the hand a size. Bases and segments scale with the length, radii with the breadth. The middle, ring and little finger move sideways,
+// unturned, so that the distances of their knuckles from the index finger's scale with the breadth. Thumb and index finger therefore keep their
+// shape, and the gap scales with the length.
 void set_size(HandData& hand, const HandSize& size);
 
 enum class Sex { female, male };
@@ -46,12 +43,11 @@ struct HandSurvey {
 // Computed from the survey's public data.
 const HandSurvey& hand_survey(Sex sex);
 
-// The length and the breadth below which `percentile` per cent of a sex lie, 0 < percentile < 100: of normal distributions with
-// the survey's moments.
+// The length and the breadth that `percentile` per cent of a sex do not reach, 0 < percentile < 100, by normal distributions with the survey's
+// moments.
 HandSize surveyed_size(Sex sex, double percentile);
 
-// The breadth to expect of an adult's hand of this length (m), where nothing else is known: the regression over as many women as
-// men.
+// The expected breadth of an adult's hand of this length (m), if nothing else is known: the regression over equally many women and men.
 double expected_breadth(double length);
 
 }  // namespace wholehand

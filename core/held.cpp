@@ -38,7 +38,7 @@ Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real
   return held + weight * std::abs(along) * Real(0.5);
 }
 
-// F = K (proxy - tip) - B (v . n) n, less what of it points into the surface: nothing sticks.
+// F = K (proxy - tip) - B (v . n) n, without any part that points into the surface: nothing sticks.
 Vec3 coupling_force(Vec3 tip, Vec3 proxy, Vec3 normal, Vec3 velocity, Real stiffness, Real damping) {
   const Vec3 force = stiffness * (proxy - tip) - damping * glm::dot(velocity, normal) * normal;
   const Real push = glm::dot(force, normal);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the 24 joints are numbered and named: the thumb's four from its base to its tip, then five of each other finger.
+// Numbers and names of the 24 joints: the thumb's four from base to tip, then five of each other finger.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ constexpr int finger_of(int joint) { return (joint + 1) / 5; }
 
 struct JointNames {
   const char* paper;   // "thumb CMC", "index PIP", "little tip": for people, and with joint_key for files
-  const char* webxr;   // "index-finger-phalanx-intermediate": by it hand rigs in glTF are matched
+  const char* webxr;   // "index-finger-phalanx-intermediate": the key that matches hand rigs in glTF
   const char* openxr;  // the enumerant "XR_HAND_JOINT_INDEX_INTERMEDIATE_EXT": for engines
 };
 extern const std::array<JointNames, JOINT_COUNT> JOINT_NAMES;

@@ -8,7 +8,7 @@
 
 namespace CORE_NS {
 
-// r^2 theta - |h| sqrt(r^2 - h^2) with theta = acos(|h| / r) taken from the segment's own height r - |h|: acos near 1 would lose half the
+// r^2 theta - |h| sqrt(r^2 - h^2) with theta = acos(|h| / r) computed from the segment's own height r - |h|, because acos near 1 would lose half the
 // digits. The rest of the disc for h < 0, the whole for h <= -r, nothing for h >= r.
 Real segment_area(Real r, Real h) {
   const Real disc = Real(2) * HALF_PI * r * r;
@@ -88,7 +88,7 @@ Slices integrate_slices(const Quadrature& quadrature, const Element& element, Re
   return sum;
 }
 
-// Split where the plane meets the wall: there the integrand ends in a 3/2 power, which the cosine map turns smooth.
+// Splits where the plane meets the wall: there the integrand ends in a 3/2 power, which the cosine map smooths.
 Slices piece_below(const Quadrature& quadrature, const Element& element, Real level, Real sine_tilt, Real cosine_tilt) {
   Slices sum;
   if (sine_tilt < UPRIGHT_SINE) {
@@ -145,7 +145,7 @@ Real lip_level(const Vessel& vessel, Real sine_tilt, Real cosine_tilt) {
   return vessel.mouth_height * cosine_tilt - vessel.mouth_radius * sine;
 }
 
-// Less than the level's tolerance is rounding at a mouth that is the lowest point: none.
+// Less than the level's tolerance is rounding at a mouth that is the lowest point, and counts as none.
 Real lip_capacity(const Vessel& vessel, const Quadrature& quadrature, Real sine_tilt, Real cosine_tilt) {
   const Real held = liquid_below(vessel, quadrature, lip_level(vessel, sine_tilt, cosine_tilt), sine_tilt, cosine_tilt).volume;
   return held > LEVEL_TOLERANCE * vessel.capacity ? held : Real(0);
@@ -166,8 +166,8 @@ Real bottom_level(const Vessel& vessel, Real sine_tilt, Real cosine_tilt) {
   return lowest;
 }
 
-// Safeguarded Newton: the free surface is the volume's derivative by the level. Where a wide body ends in a narrow neck, Newton's steps may
-// go to and fro between the two for ever, each within its bracket: so a step that is more than half of the last one is a bisection, too.
+// Safeguarded Newton: the free surface is the volume's derivative by the level. If a wide body ends in a narrow neck, Newton's steps may alternate
+// between the two forever, each within its bracket, so a step longer than half of the last one also becomes a bisection.
 LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real volume, Real sine_tilt, Real cosine_tilt) {
   LiquidState state;
   state.height = vessel.floor_height;

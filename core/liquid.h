@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernel 6: what is left in a tilted vessel, and where. Slices at the height y hold circular segments, whose areas and moments are
-// closed forms; they are integrated over y piece by piece of the cavity.
+// Kernel 6: the liquid left in a tilted vessel, and its center. Slices at the height y hold circular segments, whose areas and moments are closed
+// forms; they are integrated over y piece by piece of the cavity.
 #pragma once
 
 #include <array>
@@ -33,24 +33,24 @@ struct LiquidState {
 // Area (m2) and first moment (m3) of the part x >= h of a disc of radius r at the origin.
 Real segment_area(Real r, Real h);
 Real segment_moment(Real r, Real h);
-// Elements here are pieces of a cavity, which rise: a.y < b.y, but for a sliver that rounds to no height, which holds nothing.
-// Radius of a piece at a height within its ends, m.
+// Elements here are pieces of a cavity, which rise: a.y < b.y, except slivers that round to no height and hold nothing. Radius of a piece at a height
+// within its ends, m.
 Real element_radius(const Element& element, Real y);
-// Heights at which the plane cos y - sin sigma r = level meets the element, sigma = +-1; the element's start where there is none.
+// Heights at which the plane cos y - sin sigma r = level meets the element, sigma = +-1; the element's start if there is none.
 Vec2 plane_crossings(const Element& element, Real level, Real sine_tilt, Real cosine_tilt, Real sigma);
-// Integrals over the slices low..high of one piece of the cavity, between which the plane does not meet the wall.
+// Integrals over the slices low..high of one piece of the cavity; the plane does not meet the wall between them.
 Slices integrate_slices(const Quadrature& quadrature, const Element& element, Real low, Real high, Real level, Real sine_tilt,
                         Real cosine_tilt);
 // Integrals over one piece, and over the whole cavity, under the plane u . p = level.
 Slices piece_below(const Quadrature& quadrature, const Element& element, Real level, Real sine_tilt, Real cosine_tilt);
 Slices liquid_below(const Vessel& vessel, const Quadrature& quadrature, Real level, Real sine_tilt, Real cosine_tilt);
-// Level of the mouth's lowest point, and the volume under it: what the lip holds back at most.
+// Level of the mouth's lowest point, and the volume under it: the most that the lip holds back.
 Real lip_level(const Vessel& vessel, Real sine_tilt, Real cosine_tilt);
 Real lip_capacity(const Vessel& vessel, const Quadrature& quadrature, Real sine_tilt, Real cosine_tilt);
-// A level under which nothing lies: the cavity's lowest, or below it where an arc counts with its whole circle.
+// A level under which nothing lies: the cavity's lowest, or lower if an arc counts with its whole circle.
 Real bottom_level(const Vessel& vessel, Real sine_tilt, Real cosine_tilt);
-// Liquid of a volume (m3, at most the lip's capacity) at rest; volume 0: the center at the inner floor. The volume under the level
-// is right to LEVEL_TOLERANCE of the capacity; of a vessel that was loaded without liquid, whose capacity is 0, to rounding.
+// Liquid of a volume (m3, at most the lip's capacity) at rest; for volume 0 the center is at the inner floor. The volume under the level is accurate
+// to LEVEL_TOLERANCE of the capacity. For a vessel that was loaded without liquid, whose capacity is 0, it is accurate to rounding.
 LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real volume, Real sine_tilt, Real cosine_tilt);
 
 }  // namespace CORE_NS

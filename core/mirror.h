@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A left hand, as a right one in a mirrored scene.
+// Treats a left hand as a right hand in a mirrored scene.
 #pragma once
 
 #include "core/prepared.h"
@@ -8,8 +8,8 @@
 
 namespace wholehand {
 
-// A left hand is the right hand in the scene mirrored in x: the grip of that mirrored scene, and a point mirrored back. A rotation R
-// becomes M R M with M = diag(-1, 1, 1). The same both ways.
+// A left hand is the right hand in the scene mirrored in x. Converts a grip to that mirrored scene, and a point back. A rotation R becomes M R M with
+// M = diag(-1, 1, 1). Each conversion is its own inverse.
 GripInput mirrored(const GripInput& grip, Handedness handedness);
 Triple mirrored(const Triple& point, Handedness handedness);
 glm::dvec3 mirrored(const glm::dvec3& point, Handedness handedness);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The numbers of a population of people, as a scene's [people] may change them; core/people/ draws persons from them.
-// docs/people.md has the meaning and the source of each.
+// Parameters of a population of people, which a scene's [people] may change; core/people/ draws persons from them. docs/people.md has each one's
+// meaning and source.
 #pragma once
 
 #include <array>
@@ -8,18 +8,18 @@
 
 namespace wholehand {
 
-// What differs from person to person, and from one grasp of a person to the next. SI.
+// Traits that differ between persons, and between grasps of a person. SI.
 enum class Trait {
   height,            // of the thumb-index line over the guidance point, m
   azimuth,           // of the line, off the guidance point's, rad
   obliquity,         // of the line, rad
   roll,              // of the hand about the line, off what was planned, rad
-  reaction,          // from a load that is felt to the first change of the grip force, s
+  reaction,          // from feeling a load to the first change of the grip force, s
   response,          // how long that change takes, s
-  gain,              // of the grip force's rise that would keep the margin, how much is done
-  margin,            // share of the grip force that is not needed against slipping
-  friction,          // that the person reckons with
-  weight_guess,      // the weight that is expected over the true one
+  gain,              // the share that is done of the grip force's rise that would keep the margin
+  margin,            // share of the grip force beyond what prevents slipping
+  friction,          // that the person expects
+  weight_guess,      // expected weight over the true one
   grip_tremor,       // standard deviation of the grip force about the tremor's frequency, over the force
   tremor_rate,       // Hz
   arm_tremor,        // standard deviation of the hand's place, m
@@ -29,13 +29,13 @@ enum class Trait {
   arm_mass,          // kg
   arm_damping,       // N s/m
   arm_stiffness,     // N/m
-  patience,          // how long something is tried before it is given up, s
+  patience,          // how long an attempt lasts before the person gives up, s
   strength,          // over the mean adult's
   grip_error         // standard deviation of the grip force below the tremor, over the force
 };
 constexpr std::size_t TRAIT_COUNT = 22;
 
-// The mean over the population, the standard deviation of persons about it, and that of grasps about their person.
+// The population's mean, and the standard deviations of persons about it and of grasps about their person.
 struct Spread {
   double mean = 0, person = 0, grasp = 0;
 };
@@ -48,10 +48,10 @@ struct Traits : std::array<double, TRAIT_COUNT> {
 // Where the numbers of a trait come from. None is fitted.
 enum class Origin { published, mean_published, ours };
 
-// What is known of a trait.
+// Facts about a trait.
 struct TraitFacts {
   const char* key;   // in [people] and in tables; its end is the unit there: `_mm`, `_deg`, else SI
-  bool is_positive;  // log-normal, so that it stays above 0; else normal
+  bool is_positive;  // log-normal, so always above 0; else normal
   Spread spread;     // SI
   double low, high;  // allowed for the mean
   double widest;     // allowed for the deviations, from 0 on
@@ -61,9 +61,9 @@ const std::array<TraitFacts, TRAIT_COUNT>& trait_facts();
 
 struct PeopleData {
   double women = 0.5;      // share of the persons
-  double scatter = 1;      // every deviation is multiplied by it, and the difference of the sexes; 0: everybody is the mean person
-  double size = 1;         // deviations of the hands' length and breadth about the mean of their sex, times the survey's
-  double proportions = 1;  // deviations of single segments, times the published
+  double scatter = 1;      // multiplies every deviation, and the difference of the sexes; 0: everybody is the mean person
+  double size = 1;         // multiplies the survey's deviations of the hands' length and breadth about the mean of their sex
+  double proportions = 1;  // multiplies the published deviations of single segments
   std::array<Spread, TRAIT_COUNT> traits;
 
   PeopleData();  // with the spreads of trait_facts

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Results of many grips, field by field: one plane of `stride` numbers per scalar, so that a plane is one write to the file.
-// The same shape comes from the core and from the GPU.
+// Results of many grips, field by field: one plane of `stride` numbers per scalar, so that a plane is one write to the file. Core and GPU use the
+// same layout.
 #pragma once
 
 #include <array>
@@ -21,11 +21,11 @@ int field_planes(int field, std::size_t fills, std::size_t tilts);
 // Whether efforts are computed: in a scene with strengths and tilts.
 bool has_effort(const Scene& scene);
 
-// The same in a scene; 0 too for a field of the table, of efforts or of the arm where there is none.
+// The same for a scene; also 0 for a field of the table, of efforts or of the arm if the scene has none.
 int field_planes(int field, const Scene& scene);
 
-// Which fields are computed and where. Kept fields come first, so that reading back is a prefix; scratch fields follow: they are
-// computed because others need them, and stay on the device.
+// Which fields are computed and where. Kept fields come first, so reading back copies a prefix. Scratch fields follow: other fields need them, and
+// they stay on the device.
 struct FieldSet {
   std::array<int, FIELDS> plane{};     // first plane (reals and uints counted separately), -1: not computed
   int real_kept = 0, real_planes = 0;  // planes kept, planes in all
@@ -51,10 +51,10 @@ struct PlaneChunk {
   std::uint32_t uint(int plane, std::size_t i) const { return uints[plane * stride + i]; }
 };
 
-// Number of fills a scene's states have: its liquid's, or 1 (the empty glass).
+// Number of fills in a scene's states: its liquid's, or 1 (the empty glass).
 std::size_t scene_fills(const Scene& scene);
 
-// The liquid's fills in a vessel, fractions of its capacity, strictly ascending. Only of a scene with liquid.
+// The liquid's fills in a vessel, fractions of its capacity, strictly ascending. Only for a scene with liquid.
 const std::vector<double>& vessel_fills(const Scene& scene, const VesselData& vessel);
 
 // Weights of the six score terms in the order of FIELD_TERMS: the scene's, or without tilts those of the four remaining terms scaled to

@@ -88,7 +88,7 @@ std::vector<PreparedElement> shell_outline(const std::vector<PreparedElement>& h
   return outline;
 }
 
-// The sphere about an arc is that of its whole circle: a bound may be wide, and results keep their bits.
+// The sphere about an arc is that of its whole circle: a bound may be wide, and changing it would change results' bits.
 void set_bounds(PreparedVessel& prepared) {
   double low = 0, high = 0, widest = 0;
   for (const auto& e : prepared.hull) {
@@ -181,8 +181,8 @@ void solve_from(core_f64::Hand& hand, double closure, double gap) {
   hand.limits.gap_steps = 100;
 }
 
-// The closure of a gap to the last bit, by bisection: the gap is monotone. Where the solved closure is as near as it should be,
-// it decides most halves, which changes no bit and is three times as fast.
+// The closure of a gap to the last bit, by bisection: the gap is monotone. Where the solved closure is as near as expected it decides most halves,
+// which changes no bit and is three times as fast.
 double bisected_closure(const core_f64::Hand& hand, double gap) {
   constexpr double SOLVED = 1e-15;  // m: some roundings of a gap
   constexpr double NEAR = 1e-13;    // of a closure
@@ -305,7 +305,7 @@ PreparedLattice prepare_lattice(const PreparedVessel& prepared, int samples, boo
   for (int k = 0; k < lattice.nz; ++k)
     for (int j = 0; j < lattice.ny; ++j)
       for (int i = 0; i <= k; ++i) {
-        // a body of revolution is its own mirror image where x and z change places, and so is the lattice
+        // a body of revolution, and so its lattice, is its own mirror image under exchange of x and z
         const double x = at_place(0, i), z = at_place(2, k);
         const float value = static_cast<float>(core_f64::profile_distance(vessel, {std::sqrt(x * x + z * z), at_place(1, j)}));
         store(k * plane + static_cast<std::size_t>(j) * lattice.nx + i, value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What kernels need of a scene, as plain doubles: made by core/prepare.h.
+// What kernels need of a scene, as plain doubles; made by core/prepare.h.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace wholehand {
 
-// As core/sdf.h's Element: from a to b in (r, y), m; side 0: line, +1: arc on the half r >= center r, -1: on the other. `center` of a line
-// is its unit normal to the right of a -> b, which is outward on a hull.
+// Like core/sdf.h's Element: from a to b in (r, y), m; side 0: line, +1: arc on the half r >= center r, -1: on the other. For a line, `center` is its
+// unit normal to the right of a -> b, which is outward on a hull.
 struct PreparedElement {
   std::array<double, 2> a{}, b{}, center{};
   double radius = 0;
@@ -23,7 +23,7 @@ struct PreparedElement {
 
 struct PreparedVessel {
   std::vector<PreparedElement> hull;     // the outer outline, mouth included (last)
-  std::vector<PreparedElement> outline;  // what the signed distance is measured to: the hull, or the shell's outline
+  std::vector<PreparedElement> outline;  // the surface of the signed distance: the hull, or the shell's outline
   int lid = -1;                          // index of the mouth in `outline`; -1 for a shell
   std::vector<PreparedElement> cavity;   // y ascending, empty without a wall
   double floor_height = 0, mouth_height = 0, mouth_radius = 0;
@@ -43,7 +43,7 @@ struct PreparedHand {
   std::vector<double> gap_table;  // closures at equal steps of the gap
 };
 
-// A vessel's signed distance on a regular lattice, as core/sdf.h's Lattice takes it: what every precision and device then reads.
+// A vessel's signed distance on a regular lattice, as in core/sdf.h's Lattice; every precision and device reads it.
 struct PreparedLattice {
   Triple origin{};
   double spacing = 1;

@@ -45,8 +45,8 @@ Place watched_place(const Hand& hand, const Finger& finger, const Bend& bend, Ve
   return place;
 }
 
-// The motion t brings the place nearer to the plane by closing t + towards t^2 / 2 + jerk t^3 / 6 at most. As `acceleration` is not
-// negative, the step is no more than separation / closing, and up to there t^3 <= t^2 separation / closing.
+// The motion t brings the place nearer to the plane by at most closing t + towards t^2 / 2 + jerk t^3 / 6. Because `acceleration` is not negative,
+// the step is at most separation / closing, and up to there t^3 <= t^2 separation / closing.
 Real place_step(Support support, Real separation, const Place& place, FingerFrame frame) {
   const Vec2 normal(glm::dot(support.normal, frame.forward), glm::dot(support.normal, frame.palmward));
   const Real closing = -glm::dot(normal, place.velocity);
@@ -59,8 +59,8 @@ Real place_step(Support support, Real separation, const Place& place, FingerFram
   return plane_step(support, separation, closing, place.speed, acceleration);
 }
 
-// The wall leaves a place no faster than that beside an edge, which curves by the ball's radius: what meets the wall faster than that lets
-// it leave within the margin does not depend on rounding.
+// The wall recedes from a place at most as fast as beside an edge, which curves by the ball's radius. If the closing speed is too high for the place
+// to leave again within the margin, rounding does not decide.
 bool passes_close(const Vessel& vessel, const Support& support, Real separation, const Place& place, const FingerFrame& frame) {
   Vec3 wall = support.normal;  // steps on a lattice need none, and it has none
   if (vessel.is_lattice && std::abs(separation) <= Real(CONTACT_MARGIN)) wall = lattice_gradient(vessel, place.ball.place);
@@ -133,7 +133,7 @@ void see_place(const Hand& hand, Real separation, Real step, const FingerMotion&
   watch.until[watch.number] = motion.at + step;
 }
 
-// One turn at a time: a joint without room, or one whose bone touches as well, evaluates all points at the same position and decides again.
+// One joint per turn: a joint without room, or one whose bone touches as well, evaluates all points at the same position and decides again.
 int decide_turn(const Hand& hand, Vec3 clear, const FingerMotion& motion, bool& blocked) {
   const int nearest = nearest_point(clear, std::max(motion.joint, 0));
   const Real least = nearest == 0 ? clear.x : nearest == 1 ? clear.y : clear.z;
@@ -143,8 +143,8 @@ int decide_turn(const Hand& hand, Vec3 clear, const FingerMotion& motion, bool& 
   return motion.at >= motion.end ? motion.joint + 1 : motion.joint;
 }
 
-// Conservative advancement: no step passes through the wall, whichever watched point is meant. Each turn of the loop
-// evaluates one point; then at most one joint turns, and the finger moves at most once.
+// Conservative advancement: no step passes through the wall, for any watched point. Each turn of the loop evaluates one point; then at most one joint
+// turns, and the finger moves at most once.
 RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& finger, Real limit) {
   const int between = hand.between;
   const int places = 3 * (between + 1);
@@ -165,7 +165,7 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     const bool seen_all = watch.looks && next >= places;
     const bool meets = !watch.looks && separation < hand.limits.stop_tolerance;
     int joint = motion.joint;
-    int from = moving;  // first bone whose end has moved since it was seen
+    int from = moving;  // first bone whose end has moved since its evaluation
     if (seen_all) {
       if (watch.swings) watch.before = watch.separations;
       watch.swings = motion.joint < 0;
@@ -177,7 +177,7 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     }
     if (meets) joint = watch.number / (between + 1) + 1;
 
-    // where none does, the finger moves until a place is due, or to the end of its stage
+    // if none does, the finger moves until a place is due, or to the end of its stage
     if (joint == motion.joint && (seen_all || !watch.looks)) {
       Real due = 0;
       next = soonest_place(hand, watch, motion.joint, due);

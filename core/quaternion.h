@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Turns as four numbers, for those that take no matrix.
+// Rotations as quaternions, for interfaces that take no matrix.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace wholehand {
 
 using Quaternion = std::array<double, 4>;  // x, y, z, w, as glTF orders it; unit
 
-// Unit, of what is a rotation but for rounding.
+// Unit quaternion of a matrix that is a rotation up to rounding.
 inline glm::dquat to_quat(const glm::dmat3& rotation) { return glm::normalize(glm::quat_cast(rotation)); }
 inline glm::dquat to_quat(const Quaternion& q) { return glm::dquat(q[3], q[0], q[1], q[2]); }  // glm takes w first
 inline Quaternion to_quaternion(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }

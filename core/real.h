@@ -33,7 +33,7 @@ constexpr Real LEVEL_TOLERANCE = SINGLE ? Real(LEVEL_TOLERANCE_F32) : Real(LEVEL
 constexpr Real UPRIGHT_SINE = SINGLE ? Real(UPRIGHT_SINE_F32) : Real(UPRIGHT_SINE_F64);
 constexpr Real NO_DISTANCE = std::numeric_limits<Real>::max();
 
-// Where iterations end: the named values, or others to measure what they cost.
+// Where iterations end: the named values, or others that measure their cost.
 struct Limits {
   Real stop_tolerance = STOP_TOLERANCE;  // m
   int trace_steps = TRACE_STEPS;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of a fill is left in a vessel that was tilted so far: the smallest that its lip held back on the way.
+// How much of a fill remains in a tilted vessel: the least that its lip held back on the way.
 #pragma once
 
 #include "core/liquid.h"

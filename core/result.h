@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one grip gives, as plain doubles in SI units: the common answer of the core (either precision) and of the GPU.
+// The results of one grip, as plain doubles in SI units; shared by the core (either precision) and the GPU.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@ struct GripInput {
   double hand_scale = 1;  // times the scene's own
 };
 
-// Why a grip is not feasible, in the order in which it is decided. Values are those of REASON_* in shaders/layout.h.
+// Why a grip is not feasible, in the order of decision. Values equal REASON_* of shaders/layout.h.
 enum class Reason : std::uint32_t { none, degenerate, not_converged, misses, too_wide, too_narrow, on_mouth };
 extern const std::array<const char*, 7> REASON_NAMES;  // "" for none
 
 using PosedHand = std::array<Triple, JOINT_COUNT>;  // vessel frame, m
 
-// Fields exist up to the reason: gap and midpoint from too_wide on, everything else only where the reason is none.
+// Fields exist up to the reason: gap and midpoint from too_wide on, everything else only if the reason is none.
 struct GripResult {
   Reason reason = Reason::none;
   bool plausible = false;                  // not deeper than the depth limit, not through the table, and not beyond the wrist
@@ -54,9 +54,9 @@ struct GripResult {
   double bone_stretch = 0;                   // m
   double self_depth =
       std::numeric_limits<double>::quiet_NaN();  // m, of two fingers in each other; NaN without spheres between the joints
-  double table_depth = std::numeric_limits<double>::quiet_NaN();  // m, more than 0: through_table; NaN without a table
-  double wrist_share = std::numeric_limits<double>::quiet_NaN();  // of a range, more than 1: beyond_wrist; NaN without an arm
-  // Flexion, ulnar deviation and pronation of the wrist at that share, rad, of the core alone.
+  double table_depth = std::numeric_limits<double>::quiet_NaN();  // m, above 0: through_table; NaN without a table
+  double wrist_share = std::numeric_limits<double>::quiet_NaN();  // share of a range, above 1: beyond_wrist; NaN without an arm
+  // Flexion, ulnar deviation and pronation of the wrist at that share, rad; only from the core.
   std::array<double, 3> wrist_angles{wrist_share, wrist_share, wrist_share};
   // Iterations, only from the core (a device reports none): of the longer trace of a tip, and of a finger's longest stage.
   int trace_steps = 0, advance_steps = 0;
@@ -83,10 +83,10 @@ struct StateResult {
   Triple center_of_mass{};                                      // vessel frame, m
   double pivot_length = 0;                                      // m
   double torque = 0, exact_torque = 0;                          // N m
-  double normal_force = 0, feedback_force = 0, hold_force = 0;  // N; hold is infinity where the pinch is not antipodal
+  double normal_force = 0, feedback_force = 0, hold_force = 0;  // N; hold is infinity if the pinch is not antipodal
 };
 
-// Per-fill terms of a grip over the tilts that count. An angle is NaN where no tilt qualifies.
+// Per-fill terms of a grip over the tilts that count. An angle is NaN if no tilt qualifies.
 struct FillTerms {
   double peak_force = 0;    // largest feedback force, N
   double peak_tilt = 0;     // the first tilt at which it occurs, rad
@@ -98,7 +98,7 @@ struct ScoreTerms {
   double fingers = 0, contacts = 0, depth = 0, posture = 0, force = 0, hold = 0;
 };
 
-// How many times over the strength of the hand holds: 1 / worst effort; infinite where nothing has to be held.
+// The factor by which the hand's strength exceeds what is needed: 1 / worst effort; infinite if nothing has to be held.
 inline double held_margin(double worst_effort) {
   return worst_effort == 0 ? std::numeric_limits<double>::infinity() : 1 / worst_effort;
 }

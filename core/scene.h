@@ -53,8 +53,8 @@ struct AngleRange {
   bool operator==(const AngleRange&) const = default;
 };
 
-// The default hand is that of the mean adult, as many women as men: length and breadth of ANSUR II, segment means of Buryanov & Kotiuk
-// 2010 with the pulp added (docs/method.md). core/hand_size.h has others.
+// The default hand is the mean adult's, for equally many women and men: length and breadth of ANSUR II, segment means of Buryanov & Kotiuk 2010 with
+// the pulp added (docs/method.md). core/hand_size.h has others.
 struct HandData {
   std::string place;  // file:line:column of [hand], for messages; empty: none
   double scale = 1;
@@ -119,13 +119,13 @@ struct MeshData {
   std::string place;  // of the key, as above
   std::string file;
   double scale = 1;
-  bool z_is_up = false;      // of the file: its z is turned to y before `rotate`
+  bool z_is_up = false;      // of the file: its z becomes y before `rotate`
   bool says_up = false;      // the scene says which way is up
-  bool close_holes = false;  // small ones, before the mesh is used
+  bool close_holes = false;  // closes small ones before the mesh is used
   Triple rotate{};           // rad
   bool origin_at_base = true;
   std::optional<double> lattice_spacing;  // m; absent: as wide as the wanted accuracy allows
-  std::shared_ptr<const MeshBody> body;   // the file once it is read (core/meshes/vessel.h); null before
+  std::shared_ptr<const MeshBody> body;   // the file's body, once read (core/meshes/vessel.h); null before
 };
 
 struct GuidancePoint {
@@ -139,15 +139,15 @@ struct VesselData {
   std::optional<MeshData> mesh;         // instead of an outline
   double base = 0;                      // y of the lowest point, m; not 0 only for a mesh whose origin is as it is
   double height = 0;                    // y of the mouth, m; of a mesh, of the highest point, once it is read
-  // What it holds: the inner outline where there is one, else the room further than the wall from the outline and above the floor.
+  // The cavity: the inner outline if there is one, else the room further than the wall from the outline and above the floor.
   std::vector<OutlineElement> inner;  // from [0, 0] along the axis to the cavity's floor, then rising to its mouth; empty: none
   double wall = 0;                    // m; beside an inner outline the thinnest place; 0: neither given, or a mesh
-  double floor = 0;                   // y of the cavity's floor, m; 0: where the wall leaves room
+  double floor = 0;                   // y of the cavity's floor, m; 0: as the wall leaves it
   std::string cavity_place;           // of the key that gives the cavity, as above
   Surface surface = Surface::solid;
   double density = 2230;              // of the wall, kg/m3
   std::optional<double> mass;         // kg, with center_of_mass: both given or neither; of a mesh also alone
-  Triple center_of_mass{};            // vessel frame, m; NaN: not given, that of what the mesh encloses
+  Triple center_of_mass{};            // vessel frame, m; NaN: not given, computed from what the mesh encloses
   std::optional<double> force_range;  // N; the scene's when absent
   std::vector<GuidancePoint> guidance;
   Triple place{};           // live scene, m
@@ -156,7 +156,7 @@ struct VesselData {
   int line = 0;  // place in the scene file, for messages
   int column = 0;
 
-  std::vector<double> fills;  // of the scene's liquid, fractions of this vessel's capacity; empty where those of LiquidData hold
+  std::vector<double> fills;  // of the scene's liquid, fractions of this vessel's capacity; empty if those of LiquidData apply
 
   bool has_cavity() const { return !inner.empty() || wall > 0; }
   // A body of revolution about its axis, in mass as well as in shape.
@@ -186,7 +186,7 @@ struct ForceData {
 // sources.
 struct StrengthData {
   std::array<double, FINGER_COUNT + 1> digits{40, 25, 35, 25, 14, 80};
-  bool by_opening = true;  // they shrink as the hand opens; false: the same at every opening
+  bool by_opening = true;  // strengths fall as the hand opens; false: the same at every opening
   std::string place;       // of [strength], as above; empty: by default
 
   bool operator==(const StrengthData& other) const { return digits == other.digits && by_opening == other.by_opening; }
@@ -208,7 +208,7 @@ struct GripsData {
 };
 
 struct ScoreWeights {
-  // fitted to trials in a physics engine, and rounded to 0.01 (docs/trials.md, "The default weights")
+  // Fitted to trials in a physics engine, and rounded to 0.01 (docs/trials.md, "The default weights")
   double fingers = 0.02, contacts = 0.02, depth = 0.69, posture = 0.02, force = 0.13, hold = 0.12;
 };
 
@@ -216,9 +216,9 @@ struct OutputData {
   std::string keep_place;                        // as above
   std::optional<std::vector<std::string>> keep;  // variable names; absent: the default set
   std::string also_place;                        // as above
-  std::vector<std::string> also;                 // further ones beside the default set
+  std::vector<std::string> also;                 // variables in addition to the default set
   int best = 20;
-  double apart = 25e-3;  // m, that some joint of the hand moves from one of the best grips to any other; 0: any two differ
+  double apart = 25e-3;  // m, by which some joint of the hand must differ between any two of the best grips; 0: any two differ
 };
 
 // The level plane at a vessel's lowest point, on which it stands until it is lifted.
@@ -226,7 +226,7 @@ struct TableData {
   double clearance = 2e-3;  // m, that the hand must keep above it
 };
 
-// The arm of a person who sits in front of a vessel, and how far the wrist goes from where hand and forearm are in line and the thumb is
+// The arm of a person who sits in front of a vessel, and how far the wrist turns from neutral, where hand and forearm are in line and the thumb is
 // up. docs/people.md has the sources.
 struct ArmData {
   Triple shoulder{0.2, 0.35, 0.4};                    // from the vessel's base: to the right, up and to the person, m
@@ -239,7 +239,7 @@ struct ArmData {
   bool operator==(const ArmData&) const = default;
 };
 
-// How far a person grips from where the plan says: standard deviations, and how many such deviations of each of the best grips are scored.
+// How far a person's grip deviates from the plan: standard deviations, and how many deviations of each of the best grips are scored.
 struct RobustData {
   double height = 0, offset = 0;                // m
   double azimuth = 0, obliquity = 0, roll = 0;  // rad
@@ -274,7 +274,7 @@ struct TaskData {
   double tolerance = 0;  // m3
 };
 
-// A table that is absent in the file is an absent optional here: that part of the work is left out.
+// An absent table of the file is an absent optional here: that part of the work is left out.
 struct Scene {
   std::string name;
   Pose pose = Pose::articulated;
@@ -286,7 +286,7 @@ struct Scene {
   ForceData force;                       // a scene without [force] has these defaults
   GripsData grips;
   std::vector<double> tilts;           // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel
-  std::optional<double> until_poured;  // share of a fill, (0, 1]: tilts beyond the first at which it is out are left out
+  std::optional<double> until_poured;  // share of a fill, (0, 1]: tilts after the first at which it has poured are left out
   ScoreWeights score;
   OutputData output;
   std::optional<TableData> table;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene's vessels over its fills and tilts: what holding them takes in every state, and the score of a grip that follows from it.
+// A scene's vessels over its fills and tilts: the forces that hold them in every state, and the resulting score of a grip.
 #pragma once
 
 #include <algorithm>
@@ -19,18 +19,18 @@
 
 namespace CORE_NS {
 
-// A vessel with everything about it that no grip changes.
+// A vessel with all its grip-independent data.
 struct VesselEntry {
   Vessel vessel;
   ForceScale force;
   Load largest;                            // upright at the largest fill, for the torque's reference
   Real largest_share = 0;                  // of the liquid in its mass
   std::vector<Load> loads;                 // fill-major over the tilts
-  std::vector<std::size_t> counted_tilts;  // at each fill, from the first on; the others are left out
+  std::vector<std::size_t> counted_tilts;  // at each fill, from the first tilt on; the others are left out
   std::optional<wholehand::PreparedLattice> lattice;
 };
 
-// The line that the tips hold a vessel on, vessel frame, m.
+// The line on which the tips hold a vessel, vessel frame, m.
 struct Pinch {
   Vec3 direction{}, midpoint{};
   bool is_antipodal = false;
@@ -48,7 +48,7 @@ struct LargestForces {
   }
 };
 
-// The scored values of a grip besides its forces: masks of fingers and points, depths in m.
+// The scored values of a grip other than forces: masks of fingers and points, depths in m.
 struct ScoredHand {
   std::uint32_t used_mask = 0, touch_mask = 0;
   Real phalanx_depth = 0, palm_depth = 0, closure = 0;
@@ -62,13 +62,13 @@ class SceneStates {
   std::size_t fills() const;  // none without tilts
   std::size_t tilts() const { return tilts_.size(); }
 
-  // The states of a vessel as a grip holds it. `entry` and this must outlive the answer.
+  // The states of a vessel in a grip. `entry` and this must outlive the answer.
   GripLoads loads(const VesselEntry& entry, const Pinch& pinch) const;
 
   // With another load than the states', at an opening g_grasp - g of the device, m.
   HeldForces forces(const VesselEntry& entry, const Pinch& pinch, const Load& load, TiltAngle tilt, Real opening) const;
-  // Over the tilts that count at one fill. Calls `keep(tilt, forces)` for each of these states. `effort` is that
-  // fill's in a scene with efforts; null there for an implausible grip.
+  // Over the tilts that count at one fill. Calls `keep(tilt, forces)` for each of these states. `effort` is that fill's in a scene with efforts; null
+  // there for an implausible grip.
   template <class Keep>
   wholehand::FillTerms fill_terms(const VesselEntry& entry, std::size_t fill, const Pinch& pinch, const FillEffort* effort,
                                   const Keep& keep) const;

@@ -33,7 +33,8 @@ Real hold_term(Real largest_hold, Real grip_strength) {
 
 Real effort_term(Real worst_effort) { return Real(1) / (Real(1) + worst_effort); }
 
-// All of the strength is enough. A worst effort is that of forces that were found, and up to 1e-3 more than the least: what counts as held is held.
+// All of the strength is enough. A worst effort belongs to forces that were found, and is up to 1e-3 above the least, so a grip that counts as held
+// is held.
 bool effort_holds(Real worst_effort) { return worst_effort <= Real(1); }
 
 }  // namespace CORE_NS

@@ -109,7 +109,7 @@ Nearest nearest_element(const Vessel& vessel, Vec2 q, bool& inside) {
   for (int i = 0; i < count; ++i) {
     const Real distance_squared = element_distance_squared(vessel.outline[i], q);
     const bool nearer = distance_squared < nearest.distance_squared;
-    // an element that follows the nearest and is equally near at the end they share: the nearest stands for both
+    // an element that follows the nearest and is equally near at the shared end: the nearest stands for both
     const Vec2 from_a = q - vessel.outline[i].a;
     const bool shared =
         distance_squared == nearest.distance_squared && i == nearest.element + 1 && glm::dot(from_a, from_a) == distance_squared;
@@ -164,7 +164,7 @@ Real lattice_sample(const Vessel& vessel, int i, int j, int k) {
 
 Real mix_reals(Real a, Real b, Real t) { return a + (b - a) * t; }
 
-// A surface inside the box lies beyond the plane through the box's nearest point c, across the way there: its distance from p is at least
+// A surface inside the box lies beyond the plane through the box's nearest point c, perpendicular to the way there: its distance from p is at least
 // the hypotenuse over that way and its distance from c.
 Real distance_beyond(Real value, Vec3 outside) {
   const Real squared = glm::dot(outside, outside), held = std::max(value, Real(0));
@@ -228,10 +228,9 @@ Vec3 distance_gradient(const Vessel& vessel, Vec3 p, int& element) {
   return Vec3(gradient.x * radial.x, gradient.y, gradient.x * radial.y);
 }
 
-// A segment is convex, and so is the disc of an arc that bulges outwards: each lies beyond the tangent plane at its nearest point, in the
-// half plane and, where the normal does not point to the axis, as the surface that it sweeps round the axis too. Elements tied with the
-// nearest share its end and its plane. Where the plane supports the whole outline, no other element holds a step back. Where nothing of
-// this holds, only the distance itself is known.
+// A segment is convex, and so is the disc of an arc that bulges outwards. Each lies beyond the tangent plane at its nearest point, in the half plane
+// and, unless the normal points to the axis, also as a surface of revolution. Elements tied with the nearest share its end and its plane. If the
+// plane supports the whole outline, no other element limits the step. Otherwise only the distance itself is known.
 Support support_at(const Vessel& vessel, Vec3 p) {
   Support support;
   if (vessel.is_lattice) {
@@ -256,9 +255,9 @@ Support support_at(const Vessel& vessel, Vec3 p) {
   return support;
 }
 
-// The plane at distance s with the normal n comes nearer by no more than -n.v t + a t^2 / 2, so it is not met before the positive root
-// of s + n.v t - a t^2 / 2. Near the surface that is Newton's step, where separation / speed alone would creep up on a wall that is
-// met aslant. Degenerate: a point at rest never holds a step back.
+// The plane at distance s with the normal n approaches by at most -n.v t + a t^2 / 2, so it is not met before the positive root of s + n.v t - a t^2
+// / 2. Near the surface that is Newton's step, where separation / speed alone would creep up on a wall that is met at a flat angle. Degenerate: a
+// point at rest never limits a step.
 Real plane_step(Support support, Real separation, Real closing, Real speed, Real acceleration) {
   if (!(speed > 0)) return NO_DISTANCE;
   const Real per_speed = Real(1) / speed;

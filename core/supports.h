@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the tangent of an outline's element is a supporting line: none of the outline lies beyond it. A finger that comes near such a
-// place need mind that plane alone, and takes longer steps.
+// Finds where the tangent of an outline's element is a supporting line, beyond which no part of the outline lies. A finger near such a place only
+// needs to respect that plane, and takes longer steps.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace wholehand {
 
-// Sets `supports` of every element of a closed outline (core/sdf.h). Where it is unknown whether an element's tangents support, they
-// count as if they did not, which costs steps and nothing else: those of an arc beside another arc of more than 120 degrees on another
-// circle. The bits of an arc's own ends are of no use, since no plane is used there (element_convex).
+// Sets `supports` of every element of a closed outline (core/sdf.h). If it is unknown whether an element's tangents support, they count as not
+// supporting, which only costs steps: this concerns an arc beside another arc of more than 120 degrees on another circle. The bits of an arc's own
+// ends are unused, because no plane is used there (element_convex).
 void mark_supports(std::vector<PreparedElement>& outline);
 
 }  // namespace wholehand

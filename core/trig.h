@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sine, cosine and arc cosine. Here the standard library's; the twin shaders/trig.glsl has polynomials, since Vulkan promises its
-// own sine only to 2^-11. That makes this pair the exception among the twins: same functions, different mathematics.
+// Sine, cosine and arc cosine, here from the standard library. The twin shaders/trig.glsl has polynomials, because Vulkan guarantees its own sine
+// only to 2^-11. So this pair alone among the twins has the same functions with different mathematics.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ inline Real cosine(Real angle) { return std::cos(angle); }
 void sine_cosine(Real angle, Real& sine_out, Real& cosine_out);
 // Arc cosine in [0, pi]; arguments beyond [-1, 1] are clamped.
 Real arc_cosine(Real x);
-// Angle between two unit vectors in [0, pi], rad; accurate near 0 and pi, where an arc cosine of their product is not.
+// Angle between two unit vectors in [0, pi], rad; accurate near 0 and pi, where the arc cosine of their product is not.
 Real angle_between(Vec3 a, Vec3 b);
 // Angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0).
 Real direction_angle(Real y, Real x);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The little arithmetic of Triples, and Triples and Rotations as the vectors and matrices of the kernels: each as the other.
+// Basic arithmetic of Triples, and conversion of Triples and Rotations to and from the kernels' vectors and matrices.
 #pragma once
 
 #include <cmath>
@@ -13,11 +13,11 @@ namespace wholehand {
 inline double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline double norm(const Triple& v) { return std::hypot(v[0], v[1], v[2]); }
 inline double distance(const Triple& a, const Triple& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
-// The point of the line through both that is a at t = 0 and b at t = 1.
+// The point at t on the line that is a at t = 0 and b at t = 1.
 inline Triple point_between(const Triple& a, const Triple& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
-// Rounded otherwise than point_between(a, b, 0.5).
+// Rounds differently from point_between(a, b, 0.5).
 inline Triple midpoint(const Triple& a, const Triple& b) { return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])}; }
 
 template <class Real = double>
@@ -29,7 +29,7 @@ Triple to_triple(const glm::vec<3, Real>& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-// Unit columns at right angles, to the tolerance, the third the product of the first two.
+// Unit columns at right angles, to the tolerance, and the third is the product of the first two.
 inline bool is_rotation(const Rotation& r, double tolerance) {
   const auto dot = [&r](int a, int b) { return r[a] * r[b] + r[3 + a] * r[3 + b] + r[6 + a] * r[6 + b]; };
   bool holds = true;

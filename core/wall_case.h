@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A rendered wall to be tried: plain numbers, for the core and for a device alike; SI.
+// A rendered wall to test: plain numbers, for core and device alike; SI.
 #pragma once
 
 #include "shaders/layout.h"
@@ -12,7 +12,7 @@ struct WallCase {
   double encoder_step = 0, force_limit = 0;  // 0: none
   int delay = 0;
   bool is_bilateral = false;
-  double press = 0, friction = 0, place = 0;  // N, N, m: pressed in, and let go at rest there
+  double press = 0, friction = 0, place = 0;  // N, N, m: pressed in, and released at rest there
   int integrator = LOOP_EXACT, substeps = 1;
 };
 

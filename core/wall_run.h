@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A rendered wall, sample after sample.
+// Simulates a rendered wall sample by sample.
 #pragma once
 
 #include "core/real.h"
@@ -7,7 +7,7 @@
 
 namespace CORE_NS {
 
-// The largest energy (loop_energy, J) that the last `late` samples leave in the motion; NaN or infinite where it flies apart.
+// The largest energy (loop_energy, J) of the motion in the last `late` samples; NaN or infinite if it diverges.
 double late_energy(const wholehand::WallCase& wall_case, int samples, int late);
 
 }  // namespace CORE_NS

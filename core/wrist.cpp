@@ -59,8 +59,8 @@ void ease_wrist(const Vessel& vessel, Mat3 rotation, Vec3 wrist, ArmReach reach,
   if (found.share < best.share) best = found;
 }
 
-// Taking a body of revolution from another side is the same as turning the holder about its axis. Turns count from the grip's azimuth, so
-// that this changes nothing about such a body.
+// Taking a body of revolution from another side equals turning the holder about its axis. Turns count from the grip's azimuth, so that this changes
+// nothing for such a body.
 Wrist find_wrist(const Vessel& vessel, const Placement& placement, Real azimuth) {
   const Arm& arm = vessel.arm;
   const Real from = arm.azimuths > 1 ? azimuth : Real(0);

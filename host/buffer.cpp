@@ -11,7 +11,7 @@ namespace {
 
 using Flag = vk::MemoryPropertyFlagBits;
 
-// The memory type with all of `needed` and most of `wanted`; of equals the driver's first.
+// The memory type with all of `needed` and most of `wanted`; the driver's first in a tie.
 std::optional<std::uint32_t> find_type(const vk::PhysicalDeviceMemoryProperties& memory, std::uint32_t allowed,
                                        vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wanted,
                                        vk::MemoryPropertyFlags unwanted) {
@@ -47,8 +47,8 @@ std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed, Memo
   return *type;
 }
 
-// A device need not grant more than 4,096 allocations (maxMemoryAllocationCount), and each vessel of a scene has seven buffers and more. Buffers of
-// up to SMALL bytes share blocks. At most a sixteenth of a block stays unused at its end.
+// A device may limit allocations to 4,096 (maxMemoryAllocationCount), and each vessel of a scene has seven or more buffers. So buffers of up to SMALL
+// bytes share blocks. At most a sixteenth of a block stays unused at its end.
 constexpr vk::DeviceSize BLOCK = 1 << 20, SMALL = BLOCK / 16;
 
 std::shared_ptr<MemoryBlock> make_block(DeviceState& device, vk::DeviceSize size, std::uint32_t type) {

@@ -15,13 +15,13 @@ namespace wholehand::host {
 struct BufferState;  // vulkan.h
 
 enum class Memory {
-  device,    // fast for kernels; the host reaches it directly only where memory is unified
+  device,    // fast for kernels; the host accesses it directly only in unified memory
   upload,    // the host writes, the device copies from it
   readback,  // the device copies to it, the host reads
 };
 
-// A buffer that can be bound as storage or as uniform, whichever a kernel declares. Its contents are undefined until written.
-// Throws OutOfMemory when the memory is refused or more than the device allocates at once.
+// A buffer that a kernel may bind as storage or as uniform. Its contents are undefined until written. Throws OutOfMemory if the memory is refused or
+// exceeds the device's limit for one allocation.
 class Buffer {
  public:
   Buffer();
@@ -41,9 +41,9 @@ class Buffer {
 
   std::size_t size() const;             // bytes asked for
   bool reads_fast() const;              // mapped, and reading the mapping is fast
-  std::span<std::byte> mapped() const;  // empty where the host does not reach it
+  std::span<std::byte> mapped() const;  // empty if the host cannot access it
 
-  // Copies to and from the start of the buffer, any kind of it; done on return. For what is small or rare: chunks have stream.h.
+  // Copy to and from the start of any kind of buffer, and return when done. For small or rare data; stream.h handles chunks.
   void write(std::span<const std::byte> bytes);
   void read(std::span<std::byte> bytes) const;
 

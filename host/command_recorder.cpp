@@ -9,7 +9,7 @@ namespace {
 using Access = vk::AccessFlagBits;
 using Stage = vk::PipelineStageFlagBits;
 
-// A family for copies alone has no stage and no access of shaders.
+// A copy-only family has no shader stage and no shader access.
 Work work_of(bool only_copies) {
   if (only_copies) return {Stage::eTransfer, Access::eTransferRead, Access::eTransferWrite};
   return {Stage::eComputeShader | Stage::eTransfer, Access::eShaderRead | Access::eUniformRead | Access::eTransferRead,

@@ -8,7 +8,7 @@
 namespace wholehand::host {
 namespace {
 
-// The largest buffer that a binding of that type takes, bytes.
+// The largest buffer for a binding of that type, bytes.
 std::uint64_t largest_range(const DeviceInfo& device, vk::DescriptorType type) {
   switch (type) {
     case vk::DescriptorType::eUniformBuffer:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A list of dispatches that run one after the other.
+// A list of dispatches that run in order.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 
 namespace wholehand::host {
 
-// What is done, in order, each step in a submit of its own. A step sees what those before it wrote.
+// Steps in order, each in its own submit. A step sees what earlier ones wrote.
 class Commands {
  public:
-  // From here on `binding` is `buffer` in every kernel that uses it. The buffer must outlive the last submit.
+  // From here on, every kernel that uses `binding` gets `buffer`, which must outlive the last submit.
   void bind(std::uint32_t binding, const Buffer& buffer);
 
-  // Runs x * y * z groups. Every binding that the kernel uses must be bound (Error otherwise, as for more groups than the device
-  // takes). `push` is a plain struct of up to Kernel::MAX_PUSH bytes, laid out as the shader's push constants (std430).
+  // Runs x * y * z groups. Throws Error unless every binding that the kernel uses is bound and the device takes so many groups. `push` is a plain
+  // struct of up to Kernel::MAX_PUSH bytes, laid out as the shader's push constants (std430).
   void dispatch(const Kernel& kernel, std::array<std::uint32_t, 3> groups);
   template <class Push>
   void dispatch(const Kernel& kernel, std::array<std::uint32_t, 3> groups, const Push& push) {
@@ -33,10 +33,10 @@ class Commands {
     std::memcpy(steps_.back().push.data(), &push, sizeof(Push));
   }
 
-  // Zeroes the buffer bound there.
+  // Zeroes the buffer at that binding.
   void clear(std::uint32_t binding);
 
-  // The buffer bound there, to bind it elsewhere: one kernel's output as the next one's input. Throws Error when there is none.
+  // The buffer at that binding, to bind it elsewhere: one kernel's output as the next one's input. Throws Error if there is none.
   const Buffer& bound(std::uint32_t binding) const;
 
   struct Step {
@@ -47,7 +47,7 @@ class Commands {
     std::uint32_t push_size = 0;
   };
   const std::vector<Step>& steps() const { return steps_; }
-  // One of the steps by itself, to run or time it alone.
+  // One step alone, to run or time it.
   Commands only(std::size_t step) const;
 
  private:

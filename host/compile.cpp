@@ -25,15 +25,15 @@ namespace wholehand::host {
 namespace {
 
 constexpr std::chrono::milliseconds BETWEEN_CALLS{100};  // of the watch
-constexpr double READ_SECONDS = 0.05;         // an empty dispatch that takes longer compiles; it reads finished code in 0.01 s
+constexpr double READ_SECONDS = 0.05;         // an empty dispatch that takes longer compiles; reading finished code takes 0.01 s
 constexpr std::size_t ANY_BUFFER = 16 << 10;  // bytes: no kernel has a larger uniform block
 static_assert(2 * STATES_IN_BLOCK * 4 * sizeof(double) <= ANY_BUFFER && 4 * HAND_VECTORS * sizeof(double) <= ANY_BUFFER);
 
-// What the threads share. A thread that the driver keeps holds it for ever.
+// Shared by the threads. A thread that never returns from the driver keeps it forever.
 struct Compiling {
   std::vector<KernelRequest> requests;
   std::vector<std::optional<Kernel>> made;
-  std::vector<std::size_t> order;  // in which kernels are taken: those that take longest come first
+  std::vector<std::size_t> order;  // order of taking kernels: the slowest first
   std::size_t taken = 0, done = 0;
   std::exception_ptr failure;
   bool is_over = false;       // no further kernel is taken
@@ -41,7 +41,7 @@ struct Compiling {
   std::mutex mutex;
   std::condition_variable changed;
 
-  // The next kernel; none where all are taken.
+  // The next kernel; none if all are taken.
   std::optional<std::size_t> take() {
     const std::lock_guard lock(mutex);
     if (is_over || taken == order.size()) return {};
@@ -105,7 +105,7 @@ class EmptyDispatch {
   vk::raii::Fence done_;
 };
 
-// Threads that end with the work, or are left to a driver that keeps them.
+// Threads that end with the work, or are abandoned to a driver that does not return.
 class Threads {
  public:
   explicit Threads(std::shared_ptr<Compiling> work) : work_(std::move(work)) {}
@@ -147,7 +147,7 @@ class Threads {
   std::vector<std::thread> threads_;
 };
 
-// Calls the watch while work goes on, and abandons the device where no kernel is completed for too long.
+// Calls the watch during the work, and abandons the device if no kernel completes for too long.
 class Patience {
  public:
   Patience(Device& device, Compiling& work, const CompileWatch& watch) : device_(device), work_(work), watch_(watch) {}
@@ -198,8 +198,8 @@ void make(const DeviceState& device, Compiling& work) {
   }
 }
 
-// Compiles kernels on a device of its own for Mesa's cache, where other devices of llvmpipe find them. The driver writes there from a thread that the
-// end of its instance waits for. What fails here is compiled later, by the device that needs it.
+// Compiles kernels on its own device into Mesa's cache, where other llvmpipe devices find them. The driver writes there on a thread for which the end
+// of its instance waits. Failures here are compiled later, by the device that needs the kernel.
 void fill_cache(const DeviceInfo& info, DeviceOptions options, Compiling& work) {
   std::optional<std::size_t> k;
   try {

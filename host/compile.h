@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels that are made side by side.
+// Compiles kernels in parallel.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,12 @@ struct KernelRequest {
   std::size_t texel_bytes = 0;  // size of the kernel's texel buffer, which llvmpipe compiles into the code
 };
 
-// Called on the thread of compile(), ten times a second until all kernels are there, and once more at the end, also where that is a failure.
+// Called on compile()'s thread ten times a second until all kernels exist, and once at the end, also after a failure.
 using CompileWatch = std::function<void(const DeviceInfo& device, std::size_t done, std::size_t count)>;
 
-// Makes a kernel of each request on all cores, in the order of the requests. llvmpipe compiles a kernel when it first runs; here it does so at once.
-// Throws DeviceLost where the driver completes no kernel within DeviceOptions::wait_seconds; `device` is abandoned then, with the threads that wait
-// for the driver. Throws as Kernel's constructor does.
+// Makes a kernel for each request on all cores, in the order of the requests. llvmpipe would compile a kernel when it first runs; this forces it to
+// do so now. Throws DeviceLost if the driver completes no kernel within DeviceOptions::wait_seconds; `device` is then abandoned, with the threads
+// that wait for the driver. Also throws what Kernel's constructor throws.
 std::vector<Kernel> compile(Device& device, const DeviceOptions& options, std::vector<KernelRequest> requests,
                             const CompileWatch& watch = {});
 

@@ -14,8 +14,8 @@ namespace {
 
 std::atomic<bool> is_any_abandoned{false};
 
-// Queues: one that computes, and one or two of a family that only copies, where there is one. With one of these it reads back,
-// which is the larger part: were it to upload as well, the next chunk's upload would wait behind this chunk's read-back.
+// Queues: one for compute, and one or two of a copy-only family, if there is one. A single copy queue reads back, which is the larger part: if it
+// also uploaded, the next chunk's upload would wait behind this chunk's read-back.
 struct QueuePlan {
   std::uint32_t compute = 0, copy = 0, copy_queues = 0;
 };
@@ -91,7 +91,7 @@ DeviceState::~DeviceState() {
     save_pipeline_cache(*this);
     return;
   }
-  // never freed, and not when the process ends: the driver's threads live on it
+  // never freed, even at the end of the process: the driver's threads live on it
   static auto& abandoned = *new std::vector<std::shared_ptr<Instance>>;
   static std::mutex mutex;
   const std::lock_guard lock(mutex);

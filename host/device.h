@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Vulkan device that is used.
+// The Vulkan device in use.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,10 @@ namespace wholehand::host {
 
 struct DeviceState;  // vulkan.h
 
-// Whether a driver did not return, so that a device and its threads were left behind.
+// Whether a driver did not return, so that a device and its threads were abandoned.
 bool has_abandoned_devices();
 
-// A device with its queues. Used from one thread at a time; outlives the buffers and kernels made on it.
+// A device with its queues. One thread at a time may use it. It outlives the buffers and kernels made on it.
 class Device {
  public:
   explicit Device(std::string_view selector = "vulkan", const DeviceOptions& options = {});
@@ -24,7 +24,7 @@ class Device {
 
   const DeviceInfo& info() const;
   void wait_idle();
-  // Leaves all that the device has to a driver that does not return; nothing may be called afterwards.
+  // Abandons everything on a device whose driver does not return. Nothing may be called afterwards.
   void abandon();
 
   DeviceState& state() const { return *state_; }  // for host/ alone

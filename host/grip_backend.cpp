@@ -35,7 +35,7 @@ std::vector<int> mirrored_planes(const Scene& scene, const FieldSet& fields) {
   return planes;
 }
 
-// Kept planes that no kernel of the device writes: the core adds them. Empty where there are none.
+// Kept planes that no kernel of the device writes; the core adds them. Empty if there are none.
 FieldSet fields_of_core(const Scene& scene, const FieldSet& fields) {
   FieldSet lacking;
   lacking.plane.fill(-1);
@@ -103,7 +103,7 @@ struct GripBackend::Impl {
     }
   }
 
-  // Kept planes of a chunk by the core, as the device would have left them.
+  // Kept planes of a chunk by the core, in the device's form.
   template <class Real>
   void evaluate_on_core(const RunRequest& request, const Chunk& chunk, std::span<const std::span<std::byte>> outputs,
                         std::size_t best) {
@@ -147,10 +147,10 @@ struct GripBackend::Impl {
     candidates.resize(kept);
   }
 
-  // A whole run by the core, on all threads, where the device cannot be trusted with the vessel.
+  // A whole run by the core, on all threads, if the device cannot be trusted with the vessel.
   template <class Real>
   RunResult run_on_core(const RunRequest& request) {
-    FieldSet all = fields;  // all kept: the best are chosen here, from planes that the caller need not want
+    FieldSet all = fields;  // all kept: the best are chosen here, from planes that the caller may not want
     all.real_kept = all.real_planes;
     all.uint_kept = all.uint_planes;
     std::vector<Candidate> best;
@@ -183,7 +183,7 @@ struct GripBackend::Impl {
 
   // Where the best grips of a run are chosen.
   struct Selection {
-    bool on_host = false;  // more than the device selects: every score is read back
+    bool on_host = false;  // more than the device can select: every score is read back
     std::size_t best = 0;  // by the device
   };
 
@@ -235,8 +235,7 @@ struct GripBackend::Impl {
     return unfinished;
   }
 
-  // Some grips of a chunk as evaluate_on_core leaves them, on all threads, in place of what was read back; of each the candidate, where
-  // `has_best`.
+  // Replaces some grips of a chunk by evaluate_on_core's results, on all threads; also each one's candidate, if `has_best`.
   template <class Real>
   void finish_on_core(const RunRequest& request, const Chunk& chunk, const std::vector<std::size_t>& unfinished,
                       ReadBack<Real>& read, bool has_best, std::vector<Candidate>& candidates) {
@@ -296,7 +295,7 @@ struct GripBackend::Impl {
     work.stop = request.stop;
     work.fill = [&](const Chunk& chunk, const ChunkInputs& inputs) { fill<Real>(request, chunk, inputs); };
     work.record = [&](Program& made, const Chunk& chunk, Commands& commands) {
-      // grips come in ascending order, so of equal scores those already found stand first
+      // grips come in ascending order, so among equal scores those already found stay first
       const bool is_full = selection.best > 0 && result.best.size() == selection.best;
       const double floor_score = is_full ? result.best.back().score : -1;
       const double least_score = request.least_score ? std::max(request.least_score->load(), floor_score) : NO_LEAST_SCORE;

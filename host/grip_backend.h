@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernels' way through a Vulkan device: a scene's tables, its kernels, and grips streamed through them.
+// Runs the kernels on a Vulkan device: a scene's tables, its kernels, and a stream of grips.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace wholehand::host {
 
-// What the backend did not make because the scene does not need it, and how it reads the outline; for `--explain`.
+// What the backend omitted because the scene does not need it, and how it reads the outline; for `--explain`.
 struct GripPipelines {
   OutlineSource outline = OUTLINE_COPIED;
   bool force = false, liquid = false;
@@ -21,8 +21,8 @@ struct GripPipelines {
 
 class GripBackend final : public Backend {
  public:
-  // `core` evaluates the same scene (with the same EvaluatorOptions): constants of vessels come from it, and chunks that no device could
-  // compute. `selector` as for choose_device. Throws Error: no such device, no double precision on it.
+  // `core` evaluates the same scene (with the same EvaluatorOptions). It provides the vessels' constants, and computes chunks that no device can.
+  // `selector`: see choose_device. Throws Error: no such device, or no double precision on it.
   GripBackend(const Scene& scene, std::shared_ptr<const Evaluator> core, const FieldSet& fields, const std::string& selector,
               const GripBackendOptions& options = {});
   ~GripBackend() override;
@@ -31,14 +31,14 @@ class GripBackend final : public Backend {
   const FieldSet& fields() const override;
   RunResult run(const RunRequest& request) override;
   std::vector<LiquidResult> liquid(std::size_t vessel) override;
-  // Computes the vessels' liquid anew; the device and its pipelines stay. Not during a run.
+  // Computes the vessels' liquid again; the device and its pipelines stay. Not during a run.
   bool use_fills_of(const Scene& other) override;
 
   GripPipelines pipelines(std::size_t vessel) const;
   const DeviceInfo& device() const;
   // Bytes of a chunk's buffers per grip: inputs and planes.
   std::size_t bytes_per_grip() const;
-  // Bytes of what all grips share on the device: outlines or lattices, hand, states, quadrature.
+  // Bytes on the device that all grips share: outlines or lattices, hand, states, quadrature.
   std::size_t table_bytes() const;
 
   struct Impl;

@@ -17,16 +17,16 @@ namespace wholehand::host {
 
 struct GripBackendOptions {
   Precision precision = Precision::single;
-  OutlineSource outline = OUTLINE_COPIED;  // the small build, and outlines of more than MAX_OUTLINE elements, take OUTLINE_BUFFER
-  std::optional<KernelBuild> build{};      // in place of what suits the device, to compare
-  EvaluatorOptions evaluator;              // as the core's: lattice instead of outline, tolerances, ..
+  OutlineSource outline = OUTLINE_COPIED;  // the small build, and outlines of more than MAX_OUTLINE elements, use OUTLINE_BUFFER
+  std::optional<KernelBuild> build{};      // overrides what suits the device, to compare
+  EvaluatorOptions evaluator;              // as for the core: lattice instead of outline, tolerances, ..
   DeviceOptions device;
   CompileWatch compile_watch{};  // called while kernels are compiled
   StreamOptions stream;
-  // Grips of an invocation of the kernel of forces; 0: what suits the device. The bits are the same.
+  // Grips per invocation of the force kernel; 0: what suits the device. The bits are the same.
   std::uint32_t forces_together = 0;
   std::span<const EmbeddedShader>
-      shaders{};  // in place of those of the same name that the program has, to compare; they outlive the backend
+      shaders{};  // replace the program's shaders of the same name, to compare; they outlive the backend
 };
 
 }  // namespace wholehand::host

@@ -18,7 +18,7 @@ namespace {
 
 template <class Real>
 Buffer upload_reals(const Device& device, const std::vector<double>& values) {
-  // a binding that the shader names must be there even where nothing is read from it
+  // a binding that the shader names must exist even if nothing is read from it
   std::vector<Real> converted(values.begin(), values.end());
   converted.resize(std::max<std::size_t>(converted.size(), 4));
   return Buffer::of(device, converted);
@@ -53,7 +53,7 @@ void add_real(std::vector<Constant>& constants, std::uint32_t id, double value, 
   }
 }
 
-// Steps that a grip may take on a device; fewer than the core's where its turns would pass the budget.
+// Step limit of a grip on a device; lower than the core's if its turns would exceed the budget.
 struct DeviceSteps {
   GripSteps most;
   bool are_few = false;
@@ -101,7 +101,7 @@ std::array<std::uint32_t, 2> bits_of(double score, Precision precision) {
   return std::bit_cast<std::array<std::uint32_t, 2>>(score);
 }
 
-// Also planes that nobody asked for and that the kernels of a grip hand on to each other.
+// Includes planes that nobody requested but that the kernels of a grip pass on.
 FieldSet with_handed_on(FieldSet fields, const Scene& scene) {
   const auto add = [&](int field, int planes) {
     if (fields.has(field)) return;
@@ -190,7 +190,7 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   }
   std::vector<std::vector<GripKernel>> grips;
   for (std::size_t v = 0; v < vessels.size(); ++v) {
-    upload_vessel(v, scene, arrays, options);  // through the one queue: not side by side
+    upload_vessel(v, scene, arrays, options);  // through the one queue: not in parallel
     grips.push_back(grip_kernels(v, scene, arrays, options));
   }
   for (std::size_t v = 0; v < vessels.size(); ++v)
@@ -251,7 +251,7 @@ void GripProgram::upload_vessel(std::size_t v, const Scene& scene, const SceneAr
   const bool may_choose = build_ == BUILD_WIDE && !from.lattice && from.outline_count <= MAX_OUTLINE;
   vessel.outline_source = may_choose ? options.outline : OUTLINE_BUFFER;
   std::vector<double> outline = from.outline;
-  // as many as the longest has that fits, so that vessels share a pipeline: no point comes near those that are added
+  // as many as the longest fitting outline has, so that vessels share a pipeline; no point comes near the added ones
   for (int i = from.outline_count; i < copied_count_; ++i)
     outline.insert(outline.end(), {FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, 1, 0, 0, ELEMENT_CODE(0, 0)});
   vessel.parameters = upload(on, options.precision, from.parameters);
@@ -409,7 +409,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
   upload_states(v, scene, arrays, download(work->loads, options.precision, LOAD_STRIDE * states));
 }
 
-// After the forces: a safe tilt of theirs is lowered where the hand no longer holds.
+// After the forces: lowers a safe tilt at which the hand no longer holds.
 void GripProgram::record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, double least_score,
                                  Commands& commands) const {
   const auto floor_bits = bits_of(least_score, precision_);

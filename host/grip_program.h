@@ -12,14 +12,15 @@
 
 namespace wholehand::host {
 
-// What a vessel needs on the device.
+// A vessel's data on the device.
 struct VesselOnDevice {
   OutlineSource outline_source = OUTLINE_COPIED;
   Buffer parameters, outline, lattice, fills;
   std::vector<Buffer> states;                     // blocks of STATES_IN_BLOCK; empty without tilts
-  std::vector<Buffer> worst_states, safe_states;  // likewise, of the efforts; empty without them
+  std::vector<Buffer> worst_states, safe_states;  // the same for efforts; empty without them
   std::uint32_t worst_count = 0, safe_count = 0;  // states in them
-  // None where a CPU driver would loop over a long outline: the turns have no bound that it grants. Vessels share those that are the same.
+  // Absent if a CPU driver would loop over a long outline, because the turns cannot be bounded within its budget. Equal tables are shared between
+  // vessels.
   std::shared_ptr<Kernel> closure, rest, contact, overlap;
   bool is_on_core() const { return !closure; }
   std::vector<LiquidResult> liquid;  // fill-major; empty without
@@ -30,14 +31,14 @@ struct LiquidWork {
   Commands commands;
 };
 
-// Made by the stream, again on a fresh device where one fails.
+// The stream makes it, and makes it again on a fresh device after a failure.
 struct GripProgram final : Program {
   GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
               const std::string& selector, const GripBackendOptions& options);
   Device& device() override { return on; }
 
-  // Dispatches the kernels of a chunk whose buffers are bound; `best`: how many candidates the selection leaves, of those with a score
-  // above `floor_score`. Efforts are computed of grips whose score may reach `least_score`.
+  // Dispatches the kernels of a chunk whose buffers are bound. `best`: how many candidates to select among grips with a score above `floor_score`.
+  // Efforts are computed only for grips whose score may reach `least_score`.
   void record(std::size_t vessel, const Chunk& chunk, std::size_t best, double floor_score, double least_score, Commands& commands);
 
   // The liquid of a vessel with a cavity over all fills and tilts, in a scene with liquid and tilts: buffers, and the dispatches that fill them.
@@ -45,10 +46,10 @@ struct GripProgram final : Program {
 
   std::vector<const Kernel*> kernels() const;  // each once
 
-  // The vessels' parameter blocks alone, into the buffers that are there. With no chunk in flight.
+  // Updates only the vessels' parameter blocks, in place. Requires that no chunk is in flight.
   void write_parameters(const SceneArrays& arrays);
-  // The fills of all vessels, and what follows from them: parameters, liquid and states. As many fills as there were. With no chunk
-  // in flight.
+  // Updates the fills of all vessels and what depends on them: parameters, liquid and states. The number of fills must stay the same. Requires that
+  // no chunk is in flight.
   void write_fills(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const GripBackendOptions& options);
 
   Device on;  // first: destroyed last
@@ -58,17 +59,17 @@ struct GripProgram final : Program {
   std::optional<Kernel> lip, liquid;                                                // in a scene with liquid and tilts
   std::optional<Kernel> worst_effort, tips_effort, push_reserve, friction_reserve;  // in a scene with efforts
   double compile_seconds = 0;
-  std::uint32_t forces_together = 1;  // grips of an invocation of `force`
+  std::uint32_t forces_together = 1;  // grips per invocation of `force`
   std::uint32_t fill_count = 0, tilt_count = 0;
-  FieldSet fields;      // those asked for, and what the kernels of a grip hand on to each other
+  FieldSet fields;      // the requested fields, and those that the kernels of a grip pass on
   int real_planes = 0;  // of a chunk: of the fields, and scratch
 
  private:
   Precision precision_;
   KernelBuild build_;
   bool has_efforts_ = false;
-  int copied_count_ = 0;           // elements of every outline that is copied,
-  std::uint32_t copied_arcs_ = 0;  // and which of them are an arc in any vessel, a bit each
+  int copied_count_ = 0;           // elements of every copied outline,
+  std::uint32_t copied_arcs_ = 0;  // and a bit for each that is an arc in any vessel
   void upload_vessel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const GripBackendOptions& options);
   struct GripKernel;
   std::vector<GripKernel> grip_kernels(std::size_t v, const Scene& scene, const SceneArrays& arrays,

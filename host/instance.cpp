@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loader, instance, validation layer, and the devices there.
+// Loader, instance, validation layer, and the existing devices.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace wholehand::host {
 namespace {
 
 constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
-// A library for which there is no room looks like one that is not there.
+// Without memory for it, a library looks as if it were missing.
 std::string first_remedy() {
   const std::string limit = memory_limit_text();
   if (!limit.empty()) return limit + "; raise that";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A compute shader with its specialization constants, ready to be dispatched.
+// A compute shader with its specialization constants, ready for dispatch.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace wholehand::host {
 
-// Value of a specialization constant. Floating values become the shader's float or double, integers its int, uint or bool; an id
-// that the shader lacks is ignored, as Vulkan does (one list then serves every variant of a shader).
+// Value of a specialization constant. Floating values become the shader's float or double; integers become its int, uint or bool. An id that the
+// shader lacks is ignored, as in Vulkan (one list then serves every variant of a shader).
 struct Constant {
   std::uint32_t id = 0;
   std::variant<std::int32_t, std::uint32_t, float, double> value;
@@ -24,11 +24,11 @@ struct Constant {
 
 struct KernelState;  // vulkan.h
 
-// A compute pipeline. Bindings (set 0) and group size are read from the SPIR-V: the pipeline's layout has exactly the bindings that
-// the shader uses. Throws Error: a constant of the wrong kind, a group larger than the device's limit, a capability that it lacks.
+// A compute pipeline. Bindings (set 0) and group size come from the SPIR-V: the pipeline's layout has exactly the bindings that the shader uses.
+// Throws Error: a constant of the wrong kind, a group larger than the device's limit, a capability that the device lacks.
 class Kernel {
  public:
-  static constexpr std::size_t MAX_PUSH = 128;  // bytes of push constants: what every device takes
+  static constexpr std::size_t MAX_PUSH = 128;  // bytes of push constants that every device supports
 
   Kernel(const Device& device, std::span<const std::uint32_t> words, std::span<const Constant> constants, std::string name);
   Kernel(const DeviceState& device, std::span<const std::uint32_t> words, std::span<const Constant> constants, std::string name);
@@ -37,7 +37,7 @@ class Kernel {
   Kernel& operator=(Kernel&&) noexcept;
 
   const std::string& name() const;
-  const std::vector<std::uint32_t>& words() const;  // the module that the driver got
+  const std::vector<std::uint32_t>& words() const;  // the module as the driver got it
   const std::array<std::uint32_t, 3>& group_size() const;
   bool uses(std::uint32_t binding) const;
 

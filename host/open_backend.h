@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the name that a user gives to what evaluates the grips.
+// Opens the backend that a user names.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace wholehand {
 
-// `on`: "core", "vulkan" (the first device of the kinds discrete, integrated, CPU driver) or a device's name. `threads`: of the
-// core, 0 takes all. Throws Error (usage) for a device that is not there, (failure) for one that does not answer.
+// `on`: "core", "vulkan" (the first device of the kinds discrete, integrated, CPU driver) or a device's name. `threads`: of the core; 0 uses all.
+// Throws Error: (usage) no such device; (failure) the device does not answer.
 std::unique_ptr<Backend> open_backend(const Scene& scene, const FieldSet& fields, const std::string& on, Precision precision,
                                       int threads, const host::CompileWatch& watch = {});
 
-// Shows on a terminal how many kernels are compiled, once that takes longer than a second.
+// Shows on a terminal how many kernels are compiled, once compilation takes longer than a second.
 host::CompileWatch show_compiling();
 
-// Bytes that one buffer of `on` holds; the largest number for the core. Throws as open_backend does.
+// Bytes that one buffer of `on` can hold; the largest number for the core. Throws as open_backend does.
 std::uint64_t largest_buffer(const std::string& on);
 
 }  // namespace wholehand

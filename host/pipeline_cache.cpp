@@ -12,8 +12,7 @@
 namespace wholehand::host {
 namespace {
 
-// The file: this line, the bytes' number and hash, the bytes. A driver may trust what it is given, so what is damaged is not given
-// to it.
+// The file: this line, the bytes' number and hash, the bytes. A driver may trust its input, so it never gets damaged data.
 struct FileHeader {
   char magic[8] = {'w', 'h', 'p', 'i', 'p', 'e', '0', '1'};
   std::uint64_t size = 0, hash = 0;

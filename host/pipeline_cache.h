@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compiled pipelines kept between runs, one file per device and driver. For GPUs: lavapipe gives nothing to keep (Mesa caches for
-// it). They count towards cache_limit. No cache, a damaged one or a folder that cannot be written only costs the compilation.
+// Keeps compiled pipelines between runs, one file per device and driver. It serves GPUs: lavapipe provides no data to keep, and Mesa caches for it.
+// The files count towards cache_limit. A missing or damaged cache, or a read-only folder, only costs compilation.
 #pragma once
 
 #include <string>
@@ -9,12 +9,11 @@
 
 namespace wholehand::host {
 
-// Makes device.cache, from its file where there is one. Throws Error (usage) as cache_limit does. `folder` empty: $XDG_CACHE_HOME/wholehand or
-// ~/.cache/wholehand, nothing kept
-// on a CPU driver.
+// Makes device.cache, from its file if there is one. Throws Error (usage) as cache_limit does. If `folder` is empty, it is $XDG_CACHE_HOME/wholehand
+// or ~/.cache/wholehand, and a CPU driver keeps nothing.
 void open_pipeline_cache(DeviceState& device, const std::string& folder);
 
-// Writes the file again if pipelines were added. Never throws.
+// Rewrites the file if pipelines were added. Never throws.
 void save_pipeline_cache(DeviceState& device) noexcept;
 
 }  // namespace wholehand::host

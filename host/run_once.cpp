@@ -11,8 +11,8 @@
 namespace wholehand::host {
 namespace {
 
-// (1 + 2d) (1 + d) = 1 + 3d + 2 d^2. The last term is less than half of the last digit, so the rounded product is 1 + 3d, and what is left of a sum
-// with -(1 + 3d) says how often it was rounded.
+// (1 + 2d) (1 + d) = 1 + 3d + 2 d^2. The last term is less than half of the last digit, so the rounded product is 1 + 3d, and the sum with -(1 + 3d)
+// shows how often it was rounded.
 template <class Real>
 bool rounds(const Device& device, const Kernel& kernel) {
   const Real d = std::numeric_limits<Real>::digits == 24 ? std::ldexp(Real(1), -13) : std::ldexp(Real(1), -28);

@@ -173,8 +173,8 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
 
 namespace {
 
-// A load at a tilt in numbers on which the wrench depends in proportion, whatever the grip: kg, and kg by a length of 100 mm. With y upwards and n
-// the pour direction its force is along cos y - sin n; the glass's own center, where it lies on the axis, and the liquid's have moments along n x y.
+// A load at a tilt as numbers in which the wrench is linear, for any grip: kg, and kg at a length of 100 mm. With y upwards and n the pour direction
+// its force is along cos y - sin n; the moments of the glass's own center, if it lies on the axis, and of the liquid's are along n x y.
 Point5 load_point(const double* load, double sine, double cosine, const Parameters<double>& vessel) {
   constexpr double LENGTH = 0.1;
   const double mass = load[0], own = 1 - load[1];
@@ -188,7 +188,7 @@ Point5 load_point(const double* load, double sine, double cosine, const Paramete
 
 }  // namespace
 
-// The worst state is mostly a full one far over: those come first, so that the others are soon skipped.
+// The worst state is mostly a full one at a large tilt, so those come first, and the others are soon skipped.
 EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel, const std::vector<double>& loads) {
   EffortStates found;
   std::vector<Point5> points;
@@ -207,7 +207,7 @@ EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays
   std::vector<std::size_t> extreme;
   if (scene.force.torsion > 0) {
     extreme = extreme_points(points);
-  } else {  // an effort is no convex function of the load: a lever counts or does not
+  } else {  // an effort is not convex in the load if a lever may count as 0
     extreme.resize(points.size());
     std::iota(extreme.begin(), extreme.end(), std::size_t(0));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene as the arrays that shaders read (layout.h's bindings), in double; converted to the shader's reals when uploaded.
+// A scene as the arrays that shaders read (layout.h's bindings), in double; converted to the shader's reals on upload.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,9 @@ struct VesselArrays {
   std::vector<double> cavity;                                 // likewise, y ascending
   std::shared_ptr<const std::vector<std::uint32_t>> lattice;  // samples as layout.h has them, x fastest; null for an outline
   bool halves = false;                                        // .. two to a word
-  std::vector<double> dry_loads;                              // LOAD_STRIDE a tilt, for a scene without liquid
+  std::vector<double> dry_loads;                              // LOAD_STRIDE for each tilt, for a scene without liquid
   std::vector<double> fills;                                  // fractions of its capacity; empty without liquid
-  std::vector<std::size_t> counted_tilts;                     // at each fill, from the first on; the others are left out
+  std::vector<std::size_t> counted_tilts;                     // at each fill, from the first tilt on; the others are left out
   int outline_count = 0, cavity_count = 0;
 };
 
@@ -32,14 +32,14 @@ struct SceneArrays {
   std::vector<VesselArrays> vessels;
 };
 
-// `core` is the evaluator of the same scene with the same options: capacities, masses, references and lattices come from it.
+// `core` evaluates the same scene with the same options. Capacities, masses, references and lattices come from it.
 SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const EvaluatorOptions& options = {});
 
 // States as the effort kernel reads them, STATE_STRIDE each: those that can be the worst, and all that count.
 struct EffortStates {
   std::vector<double> worst, safe;
 };
-// `loads` of every fill and tilt, LOAD_STRIDE each: of a scene with liquid they come from the device.
+// `loads` of every fill and tilt, LOAD_STRIDE each. In a scene with liquid they come from the device.
 EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel, const std::vector<double>& loads);
 
 // A parameter block in the shader's reals.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One chunk in flight: its buffers, command buffers and what they wait for; for host/ alone.
+// One chunk in flight: its buffers, command buffers and synchronization; for host/ alone.
 #pragma once
 
 #include "host/step_recorder.h"
@@ -13,23 +13,23 @@ class Slot {
   Slot(DeviceState& device, const StreamRequest& request, std::size_t capacity);
   ~Slot();
 
-  // Bytes of a slot per item, and apart from items, staging included.
+  // Bytes of a slot per item, and independent of items, staging included.
   static std::pair<std::size_t, std::size_t> bytes(const DeviceState& device, const StreamRequest& request);
-  // Largest capacity that the device's limits of a buffer allow.
+  // Largest capacity within the device's buffer limits.
   static std::size_t largest_capacity(const DeviceInfo& device, const StreamRequest& request);
 
   void submit(const Chunk& chunk, const StreamRequest& request, Program& program);
   bool wait(double seconds);  // false: not finished within that time
-  double seconds() const;     // device time in kernels, after wait; negative where the device has no timestamps
+  double seconds() const;     // device time in kernels, valid after wait; negative if the device has no timestamps
   void deliver(const StreamRequest& request) const;
 
   Chunk chunk;
-  SubmitFault fault = SubmitFault::none;  // to be met when it is waited for
+  SubmitFault fault = SubmitFault::none;  // fault to simulate at the wait
   double submitted = 0;                   // when, s of the clock
   std::uint64_t bytes_in = 0, bytes_out = 0;
 
  private:
-  // Where a device buffer is not mapped (or slow to read) the host has a second one, and the device copies.
+  // If a device buffer is not mapped (or is slow to read), the host has a second buffer, and the device copies.
   struct Pair {
     Buffer on_device, on_host;
     std::size_t bytes = 0;  // to copy

@@ -35,7 +35,7 @@ std::span<const std::uint32_t> pointers(std::uint32_t op, std::span<const std::u
   }
 }
 
-// What a module says before its functions, by result id, and which ids its functions use.
+// The declarations of a module, by result id, and the ids that its functions use.
 struct ModuleParts {
   std::map<std::uint32_t, std::uint32_t> binding, set, spec_id, constant;
   std::map<std::uint32_t, ConstantKind> type;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a compute shader's SPIR-V says about itself: the bindings that it uses, its specialization constants and its group size.
+// Reads a compute shader's interface from its SPIR-V: the bindings it uses, its specialization constants and its group size.
 #pragma once
 
 #include <array>
@@ -21,16 +21,16 @@ struct ShaderBinding {
 enum class ConstantKind { boolean, int32, uint32, float32, float64 };
 
 struct ShaderInterface {
-  std::vector<ShaderBinding> bindings;              // of set 0, that a function of the shader uses, ascending
+  std::vector<ShaderBinding> bindings;              // of set 0, used by a function of the shader, ascending
   std::map<std::uint32_t, ConstantKind> constants;  // by specialization constant id
   bool float64 = false;                             // computes in double
-  // group size: where the id is not NO_ID the value is only the default of that specialization constant
+  // group size: if the id is not NO_ID, the value is only the default of that specialization constant
   static constexpr std::uint32_t NO_ID = ~0u;
   std::array<std::uint32_t, 3> group_size{1, 1, 1};
   std::array<std::uint32_t, 3> group_size_id{NO_ID, NO_ID, NO_ID};
 };
 
-// Throws Error, naming the shader, when the words are no compute shader or use a set other than 0.
+// Throws Error, naming the shader, if the words are not a compute shader or use a set other than 0.
 ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::string& name);
 
 }  // namespace wholehand::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A command buffer of dispatches, with the descriptor sets and timestamps that they need; for host/ alone.
+// A command buffer of dispatches, with their descriptor sets and timestamps; for host/ alone.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,14 @@ class StepRecorder : public CommandRecorder {
   StepRecorder(DeviceState& device, std::uint32_t family);
   ~StepRecorder();
 
-  // With a timestamp before and after. Each step is a submit of its own, because a driver may end one that computes for seconds
-  // (docs/drivers.md).
+  // With a timestamp before and after. Each step has its own submit, because a driver may end a submit that computes for seconds (docs/drivers.md).
   void steps(const Commands& commands);
-  double seconds() const;  // of the steps, by the device; negative where it has no timestamps
+  double seconds() const;  // device time of the steps; negative without timestamps
 
  private:
   vk::raii::QueryPool timestamps_ = nullptr;
   vk::raii::DescriptorPool descriptor_pool_ = nullptr;
-  std::vector<vk::raii::DescriptorSet> sets_;  // after their pool: destroyed first
+  std::vector<vk::raii::DescriptorSet> sets_;  // declared after their pool, so destroyed first
 };
 
 }  // namespace wholehand::host

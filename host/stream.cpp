@@ -48,7 +48,7 @@ struct Stream::Impl {
 
 namespace {
 
-// The state of one run: what is to be done again, what is in flight (both in the order of the items), where the rest starts.
+// The state of one run: what must be repeated, what is in flight (both in the order of the items), and where the rest starts.
 class Run {
  public:
   Run(Stream::Impl& stream, const StreamRequest& request) : stream_(stream), request_(request), next_(request.first) {}
@@ -65,7 +65,7 @@ class Run {
   }
 
  private:
-  // One thing: submit while a slot is free, else deliver the oldest chunk in flight. False: all is done.
+  // Does one thing: submits while a slot is free, else delivers the oldest chunk in flight. False: everything is done.
   bool step() {
     std::unique_ptr<Slot> finished;
     try {
@@ -89,7 +89,7 @@ class Run {
       try {
         finished = wait();
       } catch (const OutOfMemory& error) {
-        throw DeviceLost(error.what());  // a chunk that runs cannot be halved any more
+        throw DeviceLost(error.what());  // a running chunk cannot be halved any more
       }
     } catch (const OutOfMemory&) {
       on_out_of_memory();
@@ -141,8 +141,7 @@ class Run {
     return !stream_.idle.empty();
   }
 
-  // Slots are made for the largest chunk of this request that memory, limits and need allow, and kept for the next run where they
-  // suit.
+  // Makes slots for the largest chunk of this request that memory, limits and need allow, and keeps them for the next run if they fit.
   void fit_slots(const DeviceState& device, std::size_t slots) {
     const auto [per_item, fixed] = Slot::bytes(device, request_);
     const std::uint64_t budget = std::min<std::uint64_t>(stream_.options.slot_bytes, device.info.memory / (4 * slots));
@@ -225,8 +224,8 @@ class Run {
     return finished;
   }
 
-  // Chunk size from the last chunk's time. A run's first chunk may hold the kernel's compilation, so it does not make chunks
-  // smaller; a chunk much smaller than the present size (a rest, or one of the beginning) says little.
+  // Chooses the chunk size by the last chunk's time. A run's first chunk may include the kernel's compilation, so it does not shrink chunks; a chunk
+  // much smaller than the present size (a rest, or one of the beginning) says little.
   void adapt(std::size_t count, double seconds) {
     const double target = stream_.options.target_seconds;
     const bool first = result_.kernel_seconds == 0;
@@ -240,7 +239,7 @@ class Run {
     stream_.items = std::clamp(items / stream_.multiple() * stream_.multiple(), stream_.multiple(), stream_.capacity);
   }
 
-  // Half of what did not fit, after what is in flight; what cannot be halved is the core's.
+  // Retries half of what did not fit, after what is in flight; what cannot be halved goes to the core.
   void on_out_of_memory() {
     if (attempted_ <= stream_.multiple()) {
       front().failures = 2;
@@ -263,8 +262,7 @@ class Run {
     }
   }
 
-  // Everything in flight is to be done again, on a fresh device; the oldest of it, or what was being submitted, is taken for the
-  // cause.
+  // Repeats everything in flight on a fresh device; the oldest of it, or what was being submitted, counts as the cause.
   void on_device_lost(const DeviceLost& error) {
     std::vector<Job> lost;
     for (const Flight& flight : flights_) {
@@ -283,8 +281,8 @@ class Run {
     release(false);
   }
 
-  // Frees the slots, and unless it is kept the program, once the device is done with them. A device that hangs keeps what it may
-  // still use: that is left behind rather than freed under its hands.
+  // Frees the slots and, unless it is kept, the program, once the device is done with them. If a device hangs, what it may still use is abandoned
+  // instead of freed.
   void release(bool keep_program) {
     bool done = true;
     try {

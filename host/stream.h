@@ -36,15 +36,15 @@ namespace wholehand::host {
 
 class Stream {
  public:
-  // Makes the program at once; again where a device fails. Errors of the factory here are the caller's.
+  // Makes the program at once, and again after a device failure. Errors of this first call go to the caller.
   explicit Stream(ProgramFactory factory, StreamOptions options = {});
   ~Stream();
   Stream(Stream&&) noexcept;
   Stream& operator=(Stream&&) noexcept;
 
-  Program& program();  // the one in use, for what runs once; another one after a fault
+  Program& program();  // the current program, for what runs once; a fault replaces it
 
-  // Memory and chunk size are kept from run to run. What a callback throws ends the run, after the chunks in flight.
+  // Keeps memory and chunk size between runs. An exception from a callback ends the run after the chunks in flight.
   StreamResult run(const StreamRequest& request);
 
   struct Impl;

@@ -18,7 +18,7 @@ constexpr int TURN_BUDGET = 60000;
 constexpr int MOST_LANES = 16;      // of a vector: 512 bits of float
 constexpr int SELECT_LARGEST = 64;  // best grips that the device can select; the host selects more
 
-// What a loop of so many turns takes, with `inside` in the loops of each.
+// The turns of a loop of that many turns with `inside` turns in the loops of each.
 constexpr std::int64_t loop_turns(std::int64_t turns, std::int64_t inside = 0) { return turns * (1 + inside) + 1; }
 
 // ---- closure, rest, contact and overlap ----
@@ -30,7 +30,7 @@ struct GripLoops {
   int looped_elements = 0;  // of an outline that is not unrolled; 0: unrolled, or a lattice
   int between = 0;          // spheres on a bone
   bool proxies = false;
-  int azimuths = 0;  // at which the wrist is judged
+  int azimuths = 0;  // at which the wrist is evaluated
 };
 
 constexpr std::int64_t distance_turns(const GripLoops& loops) {
@@ -46,7 +46,7 @@ constexpr std::int64_t closure_turns(const GripSteps& steps, const GripLoops& lo
 
 constexpr std::int64_t rest_turns(const GripSteps& steps, const GripLoops& loops) {
   const std::int64_t distance = distance_turns(loops), places = 3 * (loops.between + 1);
-  // a finger evaluates all points before each of four stages and once at rest; in pose paper it moves three points instead
+  // A finger evaluates all points before each of four stages and once at rest; in pose paper it moves three points instead.
   return loop_turns(3, std::max(loop_turns(4 * (steps.advance + 1) + 5 * places, distance) + POINTS_TURNS,
                                 loop_turns(3, distance + loop_turns(steps.advance, distance))));
 }
@@ -61,7 +61,7 @@ constexpr std::int64_t overlap_turns(const GripLoops& loops) {
          loop_turns(loops.azimuths, loop_turns(ARM_RAISES));
 }
 
-// The most steps, the same of a trace and a stage, with which a grip stays within the budget; below 1 where there are none.
+// The largest step limit, for a trace and a stage alike, that stays within the budget; below 1 if there is none.
 constexpr int most_steps(const GripLoops& loops) {
   const auto most = [&](auto turns) {
     const std::int64_t none = turns(GripSteps{0, 0}, loops), each = turns(GripSteps{1, 1}, loops) - none;
@@ -70,7 +70,7 @@ constexpr int most_steps(const GripLoops& loops) {
   return std::min(most(closure_turns), most(rest_turns));
 }
 
-// Whether a grip of so many steps stays within the budget in every kernel.
+// Whether a grip with that step limit stays within the budget in every kernel.
 constexpr bool are_granted(const GripSteps& steps, const GripLoops& loops) {
   return closure_turns(steps, loops) <= TURN_BUDGET && rest_turns(steps, loops) <= TURN_BUDGET &&
          contact_turns(loops) <= TURN_BUDGET && overlap_turns(loops) <= TURN_BUDGET;
@@ -117,7 +117,7 @@ constexpr std::int64_t sample_turns(bool has_friction) {
   const std::int64_t stop = loop_turns(LOOP_NEWTON, PROPAGATOR_TURNS) + 2 * PROPAGATOR_TURNS;
   return loop_turns(LOOP_DELAYS) + (has_friction ? loop_turns(LOOP_STOPS, stop) : 0);
 }
-// Samples of a dispatch, each step of a sample in so many parts.
+// Samples per dispatch, each step of a sample divided into that many parts.
 constexpr int most_samples(bool has_friction, int substeps) {
   const std::int64_t start = PROPAGATOR_TURNS + loop_turns(substeps) + 2 * loop_turns(LOOP_DELAYS);
   return static_cast<int>((TURN_BUDGET - start) / (1 + sample_turns(has_friction)));

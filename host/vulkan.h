@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What host/'s own files share of Vulkan; included by no other folder.
+// Vulkan helpers shared within host/; no other folder includes this.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace wholehand::host {
 
-// The build compiles shaders for this version (SHADER_TARGET_ENV in cmake/shaders.cmake); a device must have it.
+// The build compiles shaders for this version (SHADER_TARGET_ENV in cmake/shaders.cmake); a device must support it.
 constexpr std::uint32_t REQUIRED_API = VK_API_VERSION_1_3;
 
-// Loader and instance, one for all devices of the process that want the same options.
+// Loader and instance, shared by all devices of the process with the same options.
 struct Instance {
   explicit Instance(const DeviceOptions& options);
 
@@ -33,7 +33,7 @@ std::shared_ptr<Instance> acquire_instance(const DeviceOptions& options);
 
 DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, std::size_t index);
 
-// Turns Vulkan's exceptions into ours; `what` says what was being done.
+// Converts Vulkan's exceptions to ours; `what` names the operation.
 [[noreturn]] void rethrow(const vk::SystemError& error, const std::string& what);
 template <class Call>
 decltype(auto) checked(const std::string& what, Call&& call) {
@@ -51,14 +51,14 @@ struct QueueRef {
 
 struct DeviceState;
 
-// An allocation, which small buffers share. The last of them frees it.
+// An allocation that small buffers share. The last of them frees it.
 struct MemoryBlock {
   explicit MemoryBlock(DeviceState& on) : device(on) {}
   ~MemoryBlock();
 
   DeviceState& device;
   vk::raii::DeviceMemory memory = nullptr;
-  std::byte* mapped = nullptr;  // where the host sees it
+  std::byte* mapped = nullptr;  // if the host can access it
   vk::DeviceSize size = 0, used = 0;
 };
 
@@ -67,15 +67,15 @@ struct DeviceState {
   std::shared_ptr<Instance> instance;
   DeviceInfo info;
   double wait_seconds = 0;  // as in DeviceOptions
-  // It did not finish in time and may be at work for ever. To destroy it would wait for it, and to free what it uses would take
-  // memory from under its hands; all of that is left behind (see leave_behind).
+  // The device did not finish in time and may work forever. Destroying it would wait for it, and freeing its memory would pull it away while in use,
+  // so all of it is abandoned (see leave_behind).
   bool hung = false;
   std::optional<vk::raii::PhysicalDevice> physical;
   std::optional<vk::raii::Device> device;
-  QueueRef compute, upload, download;   // upload and download are `compute` where there is no queue for copies alone
+  QueueRef compute, upload, download;   // upload and download are `compute` if there is no copy-only queue
   std::vector<std::uint32_t> families;  // those in use
   vk::PhysicalDeviceMemoryProperties memory;
-  std::array<std::shared_ptr<MemoryBlock>, VK_MAX_MEMORY_TYPES> blocks;  // that the next small buffer of each type goes into
+  std::array<std::shared_ptr<MemoryBlock>, VK_MAX_MEMORY_TYPES> blocks;  // holds the next small buffer of each type
   double timestamp_period = 0;                                           // s; 0: no timestamps
   std::uint64_t timestamp_mask = 0;                                      // of the bits that count
   std::optional<vk::raii::PipelineCache> cache;
@@ -85,7 +85,7 @@ struct DeviceState {
   ~DeviceState();
 };
 
-// For destructors: where the device hangs, these handles are given up and not destroyed.
+// For destructors: if the device hangs, these handles are leaked instead of destroyed.
 template <class... Handles>
 void leave_behind(const DeviceState& device, Handles&... handles) {
   if (device.hung) (static_cast<void>(handles.release()), ...);
@@ -98,7 +98,7 @@ struct BufferState {
   DeviceState& device;
   std::size_t size;
   std::shared_ptr<MemoryBlock> memory{};
-  vk::raii::Buffer buffer = nullptr;    // after its memory: destroyed first
+  vk::raii::Buffer buffer = nullptr;    // declared after its memory, so destroyed first
   vk::raii::BufferView view = nullptr;  // of uints; made by texels()
   std::byte* mapped = nullptr;
   bool cached = false;  // reading the mapping is fast

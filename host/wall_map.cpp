@@ -57,7 +57,7 @@ struct WallMap::Impl {
     }
   }
 
-  // A CPU driver goes through branches that no case takes: without friction its code is left out.
+  // A CPU driver executes branches that no case takes, so without friction its code is left out.
   const Kernel& kernel_for(bool rubs) {
     std::optional<Kernel>& kernel = rubs ? with_friction : without_friction;
     if (!kernel) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many rendered walls at once on a device.
+// Computes many rendered walls at once on a device.
 #pragma once
 
 #include <memory>
@@ -20,9 +20,9 @@ class WallMap {
   ~WallMap();
 
   const DeviceInfo& device() const;
-  // As core's late_energy, case by case. Submits are kept short and memory bounded, however many samples and cases.
+  // Equals core's late_energy for each case. Submits stay short and memory bounded for any number of samples and cases.
   std::vector<double> late_energies(std::span<const WallCase> cases, int samples, int late);
-  double kernel_seconds() const;  // of the device, so far
+  double kernel_seconds() const;  // device time so far
 
  private:
   struct Impl;

@@ -6,7 +6,7 @@
 #include "build.glsl"
 #include "real.glsl"
 
-// Spheres on a bone between its joints; 0: nothing of this kernel is compiled.
+// Spheres on a bone between its joints; with 0, nothing of this kernel is compiled.
 layout(constant_id = CONST_BETWEEN) const int BETWEEN = 0;
 
 struct Ball {

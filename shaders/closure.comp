@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels 1 and 3 of one grip an invocation, and the open hand of 8: where thumb and index finger close on the vessel, or why they do not, and the
+// Kernels 1 and 3, and the open hand of 8, one grip per invocation: where thumb and index finger close on the vessel, or why they do not, and the
 // whole hand as it closes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -19,7 +19,7 @@ void put_closing(uint grip, Closing closing, bool is_feasible) {
   put_real(PLANE_CONTACT_ANGLES, 1, grip, is_feasible ? closing.index_angle : NOT_A_NUMBER);
 }
 
-// What the kernels that follow find; of a grip that is infeasible they find nothing.
+// What later kernels find; for an infeasible grip they find nothing.
 void put_rest(uint grip, bool is_feasible) {
   Real none = is_feasible ? Real(0) : NOT_A_NUMBER;
   put_uint(PLANE_TOUCH_MASK, grip, 0u);
@@ -45,8 +45,8 @@ void put_joint(int joint, uint grip, Vec3 p, bool is_feasible) {
   if (PLANE_JOINTS >= 0) put_point(PLANE_JOINTS, joint, grip, p);
 }
 
-// The points of a finger from its base to its tip, and how deep the open finger, which it has to come from, reaches into the table: its base, and an
-// MCP other than the thumb's, are the same. One loop for both postures, thumb and fingers alike, so that the sines are compiled once.
+// The points of a finger from base to tip, and how deep the open finger, from which it closes, reaches into the table: its base, and an MCP other
+// than the thumb's, are the same. One loop for both postures, thumb and fingers alike, so that the sines are compiled once.
 Real put_finger(int f, uint grip, Placement placement, Real closure, bool is_feasible) {
   Real scale = placement.scale;
   FingerFrame frame = placed_frame(placement, hand_frame(f));

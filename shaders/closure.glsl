@@ -48,7 +48,7 @@ Trace trace_tip(Vec3 origin, Vec3 direction, Real heading, Real radius) {
       break;
     }
   }
-  if (SDF_KIND == SDF_LATTICE && trace.reason == REASON_NONE) {  // out of the loop: once for all lanes, wherever each of them ended
+  if (SDF_KIND == SDF_LATTICE && trace.reason == REASON_NONE) {  // after the loop: once for all lanes, wherever each of them ended
     precise Vec3 place = origin + trace.t * direction;
     trace.normal = lattice_gradient(place);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernels 4, 8 and 9 of one feasible grip an invocation: what the points of the posed hand, and the spheres between them, touch and reach into. They
-// are
-// examined as they come, so that no array of 24 points is held.
+// Kernels 4, 8 and 9, one feasible grip per invocation: the contacts and depths of the posed hand's points and of the spheres between them. Each
+// point is examined at once, so that no array of 24 points is needed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -15,12 +14,12 @@ layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
 
 const bool WANTS_PROXIES = PLANE_PROXIES >= 0 || PLANE_BONE_STRETCH >= 0;
 
-// What examining the points of a grip gathers.
+// Accumulates the results of examining a grip's points.
 uint touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
 Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth;
 Vec3 previous_proxy;
 
-// A depth in the vessel, of the palm or of the rest of finger f. In pose paper the fingers that it moves are not judged.
+// A depth in the vessel, of the palm or of the rest of finger f. In pose paper, moved fingers are not judged.
 void add_depth(int f, bool is_palm, Real separation) {
   Real depth = max(Real(0), -separation);
   palm_depth = is_palm ? max(palm_depth, depth) : palm_depth;
@@ -55,8 +54,8 @@ void examine_point(int f, int k, int j, Ball ball, Real separation, bool touchin
   }
 }
 
-// The points of a finger, and then the spheres between them: depths, and contacts in the places of joints that do not touch, as core/contacts.cpp has
-// it. One loop for both, so that the distance is compiled once.
+// The points of a finger, and then the spheres between them: depths, and contacts in the slots of joints that do not touch, as in core/contacts.cpp.
+// One loop for both, so that the distance is compiled once.
 void examine_finger(int f, int before) {
   int first_joint = first_joint_of(f), points = points_of(f), bones = points - 1;
   uint vacant = 0u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernel 10 of one plausible grip an invocation over states, as core/grip_effort.cpp has it. A dispatch goes through the push.number states of
-// a uniform block; what the dispatch before found is in the planes.
+// Kernel 10 over states, one plausible grip per invocation, as in core/grip_effort.cpp. A dispatch goes through the push.number states of a uniform
+// block; the planes hold the previous dispatch's results.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -10,7 +10,7 @@
 
 bool is_safe;  // whether this dispatch is for safe tilts
 
-// The state that the last lower bound's direction bounds most, where that is more than `most`.
+// The state that the last lower bound's direction bounds highest, if that exceeds `most`.
 uint highest(Solve solve, Real most, uint state) {
   for (uint i = 0u; i < push.number; ++i) {
     Real low = dot6(column(CUT), wanted_for(states_in[2u * i], states_in[2u * i + 1u])) / solve.cut_height;
@@ -27,10 +27,10 @@ void put_worst(Real worst, Vec4 tilted, uint grip) {
   put_real(PLANE_WORST_EFFORT_TILT, 0, grip, tilted.z);
 }
 
-// Whether this task has something to do for a grip. NaN where a grip is not plausible, or not judged.
+// Whether this task has work for a grip. NaN if a grip is not plausible, or not judged.
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  // the score is an upper bound so far, where a run has a floor
+  // the score is still an upper bound if a run has a floor
   bool is_new = TASK == EFFORT_WORST && !is_safe && push.first == 0u && push_floor() > Real(0);
   if (is_plausible(status) && is_new && real_out[uint(PLANE_SCORE) * push.stride + grip] < push_floor()) {
     status |= STATUS_UNJUDGED;
@@ -50,13 +50,13 @@ void main() {
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
   ONCE_IF(has_grip) load_contacts(grip);
-  // the largest effort so far; one up to `enough` need not be known
+  // the largest effort so far; an effort up to `enough` need not be known
   Real worst = Real(0);
   if (!is_safe && has_grip) {
     if (push.first == 0u) put_worst(worst, states_in[1], grip);
     worst = kept(TASK == EFFORT_TIPS ? PLANE_TIPS_WORST_EFFORT : PLANE_WORST_EFFORT, 0, grip);
   }
-  // first the search goes where the direction of a lower bound is highest, not yet exactly; then each other state is compared with what it found
+  // the search first goes where the direction of a lower bound is highest, inexactly; then it compares each other state with the result
   int rises = DEVICE_RISES;
   bool is_rising = !is_safe;
   uint state = 0u;
@@ -66,7 +66,7 @@ void main() {
   uint k = has_grip ? 0u : push.number;
   for (; k < push.number && turns < EFFORT_TURNS; ++turns) {
     Real enough = is_safe ? JUST_HELD : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
-    // skips states that the last basis shows to be small, or that nothing depends on
+    // skips states that the last basis shows to be small, or on which nothing depends
     bool is_new = !search.is_solving;
     while (k < push.number && !search.is_solving) {
       state = is_rising ? state : k;
@@ -87,7 +87,7 @@ void main() {
     ONCE_IF(search.is_solving && solve.done) {
       finish(search, solve);
       Vec4 tilted = states_in[2u * state + 1u];
-      // a basis of another load may end in a corner: an effort unknown then is solved from the start
+      // a basis of another load may end in a corner: an effort that is then unknown is solved from the start
       bool is_told = search.has_basis || !search.is_warm;
       bool is_coarse = is_rising && rises > 0 && search.has_basis;
       ONCE_IF(is_coarse) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of efforts share: the contacts of a grip, the support function of Z, and a solve pivot by pivot.
+// Shared by the effort kernels: the contacts of a grip, the support function of Z, and a solve pivot by pivot.
 #ifndef EFFORT_SOLVE_GLSL
 #define EFFORT_SOLVE_GLSL
 
@@ -16,11 +16,11 @@
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
 layout(constant_id = CONST_EFFORT_TASK) const int TASK = EFFORT_WORST;
 
-// What a grip holds with: contacts about `center` in units of length, 0 where there is none; strengths in units of force.
+// The hand's contacts about `center` in units of length, 0 if there is none; strengths in units of force.
 Vec3 center, pour;
 Real unit_length, unit_force, unit_strength, gamma, dear;
 Real friction;
-Six displaced;      // what points of Z are less, see EffortSolver::displace
+Six displaced;      // by which points of Z are smaller, see EffortSolver::displace
 Vec3 line, middle;  // of the two tips: unit; m from `center`; without torsion
 bool are_alone;     // the tips
 
@@ -56,7 +56,7 @@ void keep_arms() {}
 
 #else
 
-// Loaded before the loops over states: in them llvmpipe would gather each lane by lane.
+// Loaded before the loops over states, in which llvmpipe would gather each value lane by lane.
 Vec3 arms[JOINTS], normals[JOINTS];  // at first places instead of arms
 Vec3 own_center;
 Real gravity;
@@ -117,7 +117,7 @@ void load_contacts(uint grip) {
   pour = pour_direction(grip_direction(grip_axis(AXIS_AZIMUTH, grip), grip_axis(AXIS_OBLIQUITY, grip)), scene.pour_sense);
 }
 
-// h(u), and the point of Z where it is attained: of each digit the contact that does most, where it does more than nothing.
+// h(u), and the point of Z that attains it: for each digit the contact with the largest support, if positive.
 Real support(Six direction, out Six point) {
   point = Six(-displaced.first, -displaced.second);
   Real most = Real(0);
@@ -141,8 +141,7 @@ Real support(Six direction, out Six point) {
   return dot6(direction, point);
 }
 
-// The wrench of a force in its unit at a place, in the units of force and length. Without torsion, without the lever about the tips' line that is
-// none.
+// The wrench of a unit force at a place, in the units of force and length. Without torsion, it omits a lever about the tips' line that counts as 0.
 Six wanted_at(Vec3 place, Vec3 lift) {
   Vec3 arm = place - center, moment = cross(arm / unit_length, lift);
   if (BARE) {
@@ -166,7 +165,7 @@ struct Solve {
   Six wanted;
   Real size, low, effort, cut_height;
   int pivots;
-  bool done, is_enough, is_known, is_beyond;  // `is_enough`: forces of an effort that need not be known closer are found
+  bool done, is_enough, is_known, is_beyond;  // `is_enough`: forces exist for an effort that need not be known more closely
 };
 
 Solve start(Six wanted) {
@@ -181,7 +180,7 @@ Solve start(Six wanted) {
   return solve;
 }
 
-// An upper bound by the last basis; infinite where it does not hold the load, or there is none.
+// An upper bound by the last basis; infinite if it does not hold the load, or there is none.
 Real bound(Six wanted, bool has_basis) {
   Real levels[6];
   levels_of(wanted, levels);
@@ -214,13 +213,13 @@ void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is
   solve.pivots += 1;
 }
 
-// A grip's loop over states: whether there is a basis, whether it is another load's, whether a state is being solved.
+// State of a grip's loop over states: whether there is a basis, whether it is another load's, whether a state is being solved.
 struct Search {
   bool has_basis, is_warm, is_solving;
   int pivots;  // since the inverse was refined
 };
 
-// A turn of that loop. Without a branch, and a loop only where the inverse is refined: those copy the basis.
+// One turn of that loop. It has no branch, and a loop only where the inverse is refined, because both copy the basis.
 void turn(inout Search search, inout Solve solve, bool is_new, Real tolerance, Real enough, Real too_much) {
   search.is_warm = is_new ? search.has_basis : search.is_warm;
   restart(solve.wanted, ROUNDING * solve.size, is_new && !search.has_basis, is_new && search.has_basis);
@@ -231,7 +230,7 @@ void turn(inout Search search, inout Solve solve, bool is_new, Real tolerance, R
   }
   search.pivots += search.is_solving ? 1 : 0;
   step(solve, tolerance, enough, too_much, search.is_solving);
-  // where no column enters and the effort is not known, rounding may have gathered: once more from a refined inverse
+  // if no column enters and the effort is not known, rounding may have accumulated: tries once more from a refined inverse
   bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
   if (search.is_solving && solve.done && !is_told_apart && search.pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
     solve.done = false;
@@ -239,7 +238,7 @@ void turn(inout Search search, inout Solve solve, bool is_new, Real tolerance, R
   }
 }
 
-// The effort anew, less the rounding of the inverse. One that was enough stays so, even if it is a little larger now.
+// The effort computed anew, without the rounding of the inverse. One that was enough stays so, even if it is now a little larger.
 void finish(inout Search search, inout Solve solve) {
   Real levels[6];
   balanced_levels(solve.wanted, levels);
@@ -251,7 +250,7 @@ void finish(inout Search search, inout Solve solve) {
   search.is_solving = false;
 }
 
-// Where a grip's turns ran out before its states did.
+// If a grip's turns ran out before its states did.
 void leave_unfinished(uint grip, bool is_unfinished) {
   ONCE_IF(is_unfinished) uint_out[uint(PLANE_STATUS) * push.stride + grip] |= STATUS_OUT_OF_TURNS;
 }

@@ -17,8 +17,8 @@
 #include "grips.glsl"
 #include "trig.glsl"
 
-// lavapipe gathers a state lane by lane, since it does not see that all lanes read the same one. This takes longer than the forces of one grip. So an
-// invocation has several grips, for which it reads a state once. A GPU should need one: it reads the state once for all lanes.
+// lavapipe gathers a state lane by lane, because it does not see that all lanes read the same one. This takes longer than the forces of one grip, so
+// an invocation has several grips, for which it reads a state once. A GPU should need one: it reads the state once for all lanes.
 layout(constant_id = CONST_TOGETHER) const int TOGETHER = 1;
 layout(constant_id = CONST_TORQUE) const int TORQUE = TORQUE_PAPER;
 layout(constant_id = CONST_REFERENCE) const int REFERENCE = REFERENCE_PER_OBJECT;
@@ -30,15 +30,15 @@ Real plane_real(int plane, uint fill, uint grip, Real absent) {
 }
 
 // How a grip holds the vessel: along pour, up and beside, m; `center` of the empty vessel's mass. The factors of the lever and of the hold force
-// hold gamma, mu and a half already.
+// already include gamma, mu and a half.
 struct Held {
   Vec3 midpoint, center;
   Real across, level, rise;  // (y x d)_n, d_p, d_y
   Real half_rise, half_per_friction, per_torsion;
   Real reference;   // N m
-  Real cap;         // N2 m2, the square of the torque at which F is F_max; 0 where F does not change with the torque
+  Real cap;         // N2 m2, the square of the torque at which F is F_max; 0 if F does not change with the torque
   Real safe_below;  // N2 m2, under which F < F_max
-  Real strength;    // N, of the grip; here since a load within the loop over states is a gather
+  Real strength;    // N, of the grip; kept here, because a load within the loop over states is a gather
   bool antipodal, feasible;
 };
 
@@ -79,19 +79,19 @@ Held held_by(uint grip) {
   return held;
 }
 
-// Terms of one fill, over those of its tilts so far that count.
+// Terms of one fill, over its counted tilts so far.
 struct FillTerms {
   Real peak_square, peak_tilt, largest_hold, safe_tilt;
   bool safe;
 };
 
-// A pinch that is not antipodal asks for an infinite force, which a hand of infinite strength has: in a scene with efforts it is theirs to judge.
+// A pinch that is not antipodal needs an infinite force, which only a hand of infinite strength has; in a scene with efforts, the efforts decide.
 FillTerms no_terms(Held held) {
   bool may_hold = held.antipodal || !(scene.grip_strength < NO_DISTANCE);
   return FillTerms(Real(-1), Real(0), Real(0), NOT_A_NUMBER, may_hold);
 }
 
-// As the dispatch before left them, whose last tilt was `before`.
+// As the previous dispatch left them; its last tilt was `before`.
 FillTerms kept_terms(Held held, uint fill, uint grip, Real before) {
   FillTerms terms = no_terms(held);
   Real force = plane_real(PLANE_PEAK_FORCE, fill, grip, Real(-1));
@@ -110,7 +110,7 @@ struct StateForces {
 
 Real exact_torque_of(Vec4 weight, Vec4 tilted, Real lean, Real rise) { return weight.x * (tilted.x * rise + tilted.y * lean); }
 
-// `weight`: N, the vessel's own share of the mass, lean and height of the center of mass less what lies off the axis; `tilted`: sine, cosine, ..
+// `weight`: N, the vessel's own share of the mass, lean and height of the center of mass without what lies off the axis; `tilted`: sine, cosine, ..
 StateForces state_forces(Held held, Vec4 weight, Vec4 tilted) {
   Real lean = weight.z - held.midpoint.x, rise = weight.w - held.midpoint.y, beside = -held.midpoint.z;
   if (OFF_AXIS) {
@@ -136,7 +136,7 @@ StateForces state_forces(Held held, Vec4 weight, Vec4 tilted) {
   return forces;
 }
 
-// Comparisons, and no min or max: Vulkan lets those choose either of two numbers, drivers add what makes them sure.
+// Comparisons instead of min and max: Vulkan lets those return either number, and drivers add code to fix that.
 void add_state(Held held, StateForces forces, Real angle, inout FillTerms terms) {
   Real square = forces.torque_square < held.cap ? forces.torque_square : held.cap;
   bool higher = square > terms.peak_square;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What core/effort.cpp does within a solve: what a contact can do, and the basis of the simplex method. No twin of its functions: in the wide build
-// the basis lies in registers, and nothing branches that copies it.
+// The inner operations of core/effort.cpp's solve: a contact's support, and the basis of the simplex method. Its functions have no twin: in the wide
+// build the basis lies in registers, and no branch may copy it.
 #ifndef GAUGE_GLSL
 #define GAUGE_GLSL
 
 #include "build.glsl"
 #include "real.glsl"
 
-// What comparisons allow is more than a hundred roundings. So no sum is `precise`: a driver that contracts it moves it by one (docs/drivers.md).
+// Comparisons allow more than a hundred roundings, so no sum is `precise`: a driver that contracts a sum changes it by one rounding
+// (docs/drivers.md).
 #if REAL_IS_DOUBLE
 #define ROUNDING 1e-11lf
 #define LEAST_PIVOT 1e-9lf
@@ -35,7 +36,7 @@ struct Cost {
   Real real, artificial, least;
 };
 
-// Rows of the inverse, and which columns are artificial. Indices are constants wherever loops are unrolled: registers then.
+// Rows of the inverse, and which columns are artificial. Unrolled loops make the indices constants, so the rows stay in registers.
 struct Basis {
   Six inverse[6];
   bool is_artificial[6];
@@ -43,7 +44,7 @@ struct Basis {
 
 Basis basis;
 
-// Columns of the basis, points of Z or artificial, and the direction of the last lower bound: they are rarely read.
+// Columns of the basis (points of Z or artificial) and the direction of the last lower bound; rarely read.
 #define CUT 6
 #if SMALL
 
@@ -97,8 +98,9 @@ void levels_of(Six wanted, out Real levels[6]) {
   [[unroll]] for (int r = 0; r < 6; ++r) levels[r] = dot6(basis.inverse[r], wanted);
 }
 
-// Where `anew`: six artificial columns at right angles with equal shares of `wanted`. Where `warm`: the last basis for another load, where a column
-// whose level would be negative gives way to an artificial one the other way. Both without branches in the wide build: each would copy the basis.
+// If `anew`: six artificial columns at right angles with equal shares of `wanted`. If `warm`: the last basis for another load, in which a column
+// whose level would be negative is replaced by an opposite artificial one. Both have no branches in the wide build, because each would copy the
+// basis.
 void restart(Six wanted, Real rounding, bool anew, bool warm) {
 #if SMALL
   if (!anew && !warm) return;
@@ -145,7 +147,7 @@ Six priced(bool is_short) {
   return direction;
 }
 
-// Without branches, as `restart`; nothing where not `allowed`. False: no column leaves.
+// Without branches, like `restart`; does nothing unless `allowed`. False: no column leaves.
 bool enter(Six point, Real levels[6], Real rounding, bool allowed) {
   Real turned[6];
   levels_of(point, turned);
@@ -192,7 +194,7 @@ bool enter(Six point, Real levels[6], Real rounding, bool allowed) {
   return is_found;
 }
 
-// X + (1 - X B) X of the inverse X, row by row in place: rounding that rank-one updates gathered is squared, where there is not too much of it.
+// X + (1 - X B) X of the inverse X, row by row in place: squares the rounding that rank-one updates accumulated, if it is small enough.
 void refine() {
   Real most = Real(0);
   UNROLL for (int c = 0; c < 6; ++c) {
@@ -210,7 +212,7 @@ void refine() {
   }
 }
 
-// With what the inverse's rounding leaves unbalanced.
+// Includes what the inverse's rounding leaves unbalanced.
 void balanced_levels(Six wanted, out Real levels[6]) {
   levels_of(wanted, levels);
   Six rest = wanted;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The grips of a dispatch as the kernels read and write them: axes in, planes out, and the busy grips of a group.
+// The grips of a dispatch as kernels read and write them: axes in, planes out, and the busy grips of a group.
 #ifndef GRIPS_GLSL
 #define GRIPS_GLSL
 
 #include "real.glsl"
 #include "status.h"
 
-layout(local_size_x_id = CONST_GROUP_SIZE) in;  // before INVOCATION, which would take groups of one else
+layout(local_size_x_id = CONST_GROUP_SIZE) in;  // before INVOCATION, which would otherwise take groups of one
 layout(std430, binding = BINDING_GRIPS) readonly buffer GripBlock { Real grips_in[]; };
 layout(std430, binding = BINDING_REAL_OUT) buffer RealBlock { Real real_out[]; };
 layout(std430, binding = BINDING_UINT_OUT) buffer UintBlock { uint uint_out[]; };
 
-// Each field's first plane; -1 where the field is left out.
+// Each field's first plane; -1 if the field is left out.
 #define DECLARE_PLANE(name, number) layout(constant_id = CONST_PLANE + number) const int PLANE_##name = -1;
 REAL_FIELD_LIST(DECLARE_PLANE)
 UINT_FIELD_LIST(DECLARE_PLANE)
@@ -43,8 +43,7 @@ shared uint busy_grips[GROUP_SIZE];
 shared uint busy_count;
 
 // Packs the group's busy grips into its first invocations, because all lanes of a vector run until the slowest is done. True: this invocation has
-// one,
-// `grip`. All invocations of the group call it, once.
+// one, `grip`. All invocations of the group call it, once.
 bool take_grip(bool is_busy, out uint grip) {
   if (gl_LocalInvocationIndex == 0u) busy_count = 0u;
   barrier();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The hand as the kernels read it (layout.h's HAND_* offsets).
+// The hand as kernels read it (layout.h's HAND_* offsets).
 #ifndef HAND_TABLE_GLSL
 #define HAND_TABLE_GLSL
 
@@ -21,15 +21,15 @@ Vec4 finger_vector(int finger, int place) { return hand_table[HAND_FINGER_STRIDE
 
 #else
 
-// All of it but the table of gaps. `main` loads it outside of loops and branches, before any lane may have returned: there alone lavapipe reads a
-// constant place once for all lanes; elsewhere it gathers lane by lane.
+// All of it except the table of gaps. `main` loads it outside of loops and branches, before any lane may have returned: only there does lavapipe read
+// a constant place once for all lanes; elsewhere it gathers lane by lane.
 Vec4 hand_vectors[HAND_TABLE];
 
 void load_hand() {
   [[unroll]] for (int i = 0; i < HAND_TABLE; ++i) hand_vectors[i] = hand_table[i];
 }
 
-// Vector `place` of a finger, by selection: an index that varies would put the vectors in memory.
+// Vector `place` of a finger, by selection: a variable index would put the vectors in memory.
 Vec4 finger_vector(int finger, int place) {
   Vec4 vector = hand_vectors[place];
   [[unroll]] for (int f = 1; f < FINGERS; ++f) vector = finger == f ? hand_vectors[HAND_FINGER_STRIDE * f + place] : vector;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The one file that C++ and GLSL both include: bindings, group sizes, specialization constant ids, output fields, status bits and
-// named tolerances. Only the preprocessor's integers and numbers, and one parameter struct of scalars.
+// The one file that C++ and GLSL both include: bindings, group sizes, specialization constant ids, output fields, status bits and named tolerances.
+// It only has the preprocessor's integers and numbers, and one parameter struct of scalars.
 #ifndef WHOLEHAND_LAYOUT_H
 #define WHOLEHAND_LAYOUT_H
 
-// RATIO: of whole numbers, in the includer's reals: a literal would be a float in GLSL.
+// RATIO: of whole numbers, in the includer's reals, because a literal would be a float in GLSL.
 #ifdef __cplusplus
 #include <cstdint>
 
@@ -25,39 +25,39 @@
 #define AXIS_DISTANCE RATIO(1, 1000000)  // m: paper pose, a point nearer to its axis stays
 #define LARGEST_E1_X RATIO(19, 20)  // |e1.x| above which the hand's frame is ill-defined: too narrow
 #define SMALLEST_PIVOT RATIO(1, 200)  // m: per_grip torque reference, and levers
-#define BARE_LEVER RATIO(1, 1000)  // of the pivot length, at least the smallest: a lever up to this is none for contacts without torsion
+#define BARE_LEVER RATIO(1, 1000)  // of the pivot length, at least the smallest: a lever up to this counts as 0 for contacts without torsion
 // Mean grip strength on handles of 38.1, 50.8, 63.5 and 76.2 mm, over the largest: 231, 236, 208 and 158 N (PMC3855544).
 #define OPENING_FROM RATIO(381, 10000)  // m: the first diameter,
-#define OPENING_STEP RATIO(127, 10000)  // .. and what the next is more
+#define OPENING_STEP RATIO(127, 10000)  // .. and the increase to the next
 #define OPENING_GAIN RATIO(5, 236)      // of the strength: more at the second than at the first,
 #define OPENING_LOSS_1 RATIO(28, 236)   // .. less at the third than there,
 #define OPENING_LOSS_2 RATIO(50, 236)   // .. and less again at the fourth
-#define CONTACT_MARGIN RATIO(1, 400000)  // m: nearer to where a contact begins, rounding may decide whether it is one
+#define CONTACT_MARGIN RATIO(1, 400000)  // m: this near to the contact threshold, rounding may decide whether it is a contact
 #define DEPTH_SCALE RATIO(1, 100)   // m: depth at which the depth score reaches 0
 #define GRAZING_COSINE 0.017452406437283512  // cosine of 89 degrees: contact normal within 1 degree of perpendicular to the line
 
-#define TRACE_STEPS 1000            // sphere tracing steps a side
-#define ADVANCE_STEPS 1024          // conservative advancement steps a stage
+#define TRACE_STEPS 1000            // sphere tracing steps per side
+#define ADVANCE_STEPS 1024          // conservative advancement steps per stage
 #define PROXY_STEPS 16
 #define GAP_STEPS 32                // safeguarded Newton steps of the gap's inverse
 #define LEVEL_STEPS 64              // safeguarded Newton steps of the liquid level
 #define GAP_TABLE_SIZE 257          // entries of the table that starts the gap's inverse
 #define GAP_TABLE_LARGEST 1025      // .. that the hand's block has room for
-#define QUADRATURE_POINTS 32        // Gauss-Legendre points a piece: 1e-10 of the capacity where the plane passes close to an arc's pole
+#define QUADRATURE_POINTS 32        // Gauss-Legendre points per piece: 1e-10 of the capacity if the plane passes close to an arc's pole
 #define MAX_OUTLINE 32              // elements that a kernel copies
 #define WHOLE_DEGREES 181           // tilts 0..180 at which the lip's capacity is tabulated
-#define HALF_UNIT RATIO(1, 1024)    // m: unit of 16-bit samples, so that halves too small to be normal are under 60 nm
-#define LOOP_DELAYS 4               // whole samples of delay of a haptic loop, at most
+#define HALF_UNIT RATIO(1, 1024)    // m: unit of 16-bit samples, chosen so that subnormal halves are under 60 nm
+#define LOOP_DELAYS 4               // largest delay of a haptic loop, in whole samples
 #define LOOP_ORDER 10               // of the series of its propagator
 #define LOOP_DOUBLINGS 48           // of the step of that series: 2e12 of the fastest time constants
-#define LOOP_STOPS 4                // reversals within a sample that friction is followed through
+#define LOOP_STOPS 4                // reversals within a sample for which friction is followed
 #define LOOP_NEWTON 3               // steps to where the motion stops
 #define LOOP_EXACT 0                // how the motion between two samples is integrated
 #define LOOP_EULER 1                // explicit, at equal sub-steps
 #define LOOP_SEMI_IMPLICIT 2        // the place by the new speed
 
-// ---- turns of loops, so few that TURN_BUDGET holds (host/turns.h); a grip whose efforts take more pivots is STATUS_OUT_OF_TURNS ----
-#define DEVICE_RISES 4              // of an effort: times that a grip looks for the state that its last lower bound bounds most
+// ---- turns of loops, small enough for TURN_BUDGET (host/turns.h); a grip whose efforts take more pivots is STATUS_OUT_OF_TURNS ----
+#define DEVICE_RISES 4              // of an effort: times that a grip looks for the state that its last lower bound bounds highest
 #define EFFORT_TURNS 4000           // of a grip in a dispatch of the effort kernel
 #define RESERVE_TURNS 4100          // .. of the kernel of reserves,
 #define RESERVE_RAISE_TURNS 1100    // and turns in which it searches for a friction
@@ -75,7 +75,7 @@
 #define CASE_BILATERAL 9            // 0 or 1
 #define CASE_PRESS 10               // N
 #define CASE_FRICTION 11            // N
-#define CASE_PLACE 12               // m, where it is let go
+#define CASE_PLACE 12               // m, where it is released
 #define CASE_INTEGRATOR 13          // LOOP_*
 #define CASE_SUBSTEPS 14
 #define CASE_PLANES 15
@@ -90,7 +90,7 @@
 #define MOST_BETWEEN 8              // spheres on a bone between its joints
 
 // ---- the arm ----
-#define ARM_AZIMUTHS 24             // at which the holder may take a body of revolution
+#define ARM_AZIMUTHS 24             // azimuths from which the holder may take a body of revolution
 #define ARM_RAISES 7                // places of the elbow, from low to the side
 
 // ---- why a grip is not feasible, in the order of decision (status, low 4 bits) ----
@@ -106,16 +106,17 @@
 #define STATUS_PLAUSIBLE 0x10
 #define STATUS_ANTIPODAL 0x20
 #define STATUS_GRAZING 0x40         // a contact normal within 1 degree of perpendicular to the line
-#define STATUS_PROXY_UNSETTLED 0x80 // a proxy took all its steps
+#define STATUS_PROXY_UNSETTLED 0x80 // a proxy used up its steps
 #define STATUS_BLOCKED_SHIFT 8      // bits 8..12: finger f was inside when open
 #define STATUS_THROUGH_TABLE 0x2000 // bit 13: the hand, posed or open, reaches below the table and its clearance
 #define STATUS_SELF_OVERLAP 0x4000  // bit 14: two fingers lie deeper in each other than the depth limit
-#define STATUS_CONTACT_UNDECIDED 0x8000 // bit 15: a point or a sphere is within CONTACT_MARGIN of being a contact, or of being none
-#define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
-#define STATUS_OUT_OF_TURNS 0x200000 // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
+#define STATUS_CONTACT_UNDECIDED 0x8000 // bit 15: rounding may decide for a point or sphere within CONTACT_MARGIN whether it is a contact
+#define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f used up its advancement steps
+#define STATUS_OUT_OF_TURNS 0x200000 // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, so only the host sees
+                                     // it
 #define STATUS_NOT_HELD 0x400000    // bit 22: a plausible grip whose worst effort is above 1
 #define STATUS_BEYOND_WRIST 0x800000 // bit 23: no arm reaches the hand within the ranges of its wrist and forearm and above the table
-#define STATUS_UNJUDGED 0x1000000   // bit 24: a plausible grip whose efforts are not computed: no effort takes its score to the least that is wanted
+#define STATUS_UNJUDGED 0x1000000   // bit 24: a plausible grip without efforts: none would raise its score to the wanted minimum
 
 // ---- kinds, as specialization constants ----
 #define POSE_ARTICULATED 0
@@ -169,7 +170,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define BINDING_UINT_OUT 3          // uint[planes * n]
 #define BINDING_HAND 4              // uniform: vec4[HAND_VECTORS]
 #define BINDING_OUTLINE 5           // readonly: Real[OUTLINE_STRIDE * count]
-#define BINDING_LATTICE 6           // texel buffer of uint: a float's bits each, or two halves in units of HALF_UNIT, the first in the low bits
+#define BINDING_LATTICE 6           // texel buffer of uint: each a float's bits, or two halves in units of HALF_UNIT, the first in the low bits
 #define BINDING_CAVITY 7            // readonly: Real[OUTLINE_STRIDE * pieces], y ascending
 #define BINDING_TILTS 8             // readonly: Real[3 * tilts]: sine, cosine, tilt
 #define BINDING_FILLS 9             // readonly: Real[fills]: fraction of capacity
@@ -180,13 +181,13 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define BINDING_CANDIDATES 14       // Real scores, and
 #define BINDING_INDICES 15          // uint indices of the top-N selection
 #define BINDING_STATES 16           // uniform: vec4[2 * STATES_IN_BLOCK], a stretch of the (fill, tilt) in order
-#define BINDING_LANES 17            // uint[2]: useful lanes and all of them, where a benchmark counts them (real.glsl)
+#define BINDING_LANES 17            // uint[2]: useful lanes and all lanes, if a benchmark counts them (real.glsl)
 #define BINDINGS 18
 
-// Record of an outline or cavity element, reals: start r, start y, end r, end y, center r, center y, radius, code.
-// side: 0: line, whose unit outward normal stands for the center; +1: arc on the half r >= center r; -1: the other half.
-// supports: bits, whether the element's tangent is a supporting line of the outline (nothing of the outline lies beyond it) where a point's
-// nearest one lies between the element's ends, is its start, or is its end. In the last two the line is across the way to the point.
+// Record of an outline or cavity element, reals: start r, start y, end r, end y, center r, center y, radius, code. side: 0: line, with its unit
+// outward normal in place of the center; +1: arc on the half r >= center r; -1: the other half. supports: bits that say whether the element's tangent
+// is a supporting line of the outline (nothing of the outline lies beyond it) if a point's nearest one lies between the element's ends, is its start,
+// or is its end. For the last two, the line is perpendicular to the way to the point.
 #define OUTLINE_STRIDE 8
 #define SUPPORTS_BETWEEN 1
 #define SUPPORTS_AT_A 2
@@ -194,8 +195,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define ELEMENT_CODE(side, supports) ((side) + 4 * (supports))  /* its parts: */
 #define SUPPORTS_OF(code) (((code) + 1) >> 2)
 #define SIDE_OF(code) ((code) - 4 * SUPPORTS_OF(code))
-#define NO_LID 0xfffffffeu           // no element, and not the one of a lattice, which is -1
-#define FAR_AWAY 1048576.0           // m: where other elements are that hold no step back
+#define NO_LID 0xfffffffeu           // no element, distinct from a lattice's -1
+#define FAR_AWAY 1048576.0           // m: the distance of other elements if none limits the step
 
 // The hand as vec4s. Per finger: base and L0; forward and L1; palmward and L2; radii 0..3; radius 4 and L3.
 #define HAND_FINGER_STRIDE 5
@@ -211,22 +212,22 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 // Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's center of mass.
 #define LOAD_STRIDE 4
 
-// A state as the force kernel reads it: weight (N), the vessel's own share of the mass, lean of the center of mass, and its height where the
-// vessel's own is on the axis; sine, cosine and angle of its tilt (angle -1: the state is left out), and the angle of the tilt before (-1: none).
-// A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for safe tilts, the angle of the tilt before (-1: none)
-// and the number of its fill, else the angle of its tilt and its fill as a fraction.
+// A state as the force kernel reads it: weight (N), the vessel's own share of the mass, lean of the center of mass, and its height if the vessel's
+// own is on the axis; sine, cosine and angle of its tilt (angle -1: the state is left out), and the angle of the previous tilt (-1: none). A state as
+// the effort kernel reads it: its load; sine and cosine of its tilt; then, for safe tilts, the angle of the previous tilt (-1: none) and the number
+// of its fill, else the angle of its tilt and its fill as a fraction.
 #define STATE_STRIDE 8
 #define STATES_IN_BLOCK 256         // in double 16 KiB, the smallest uniform range that Vulkan grants
 
-// The placed hand: the columns of its rotation, its translation, and which points touched before they moved, a bit each.
+// The placed hand: the columns of its rotation, its translation, and a bit for each point that touched before it moved.
 #define PLACED_TRANSLATION 9
 #define PLACED_BEFORE 12
 #define PLACED_STRIDE 13
 
-// Where a joint presses: the place on the surface and the inward normal there; both 0 where it does not. A sphere between joints has the place
-// of a joint of its digit that does not touch.
+// A joint's contact: its place on the surface and the inward normal there; both 0 if there is none. A sphere between joints uses the slot of a joint
+// of its digit that does not touch.
 #define CONTACT_STRIDE 6
-#define EFFORT_WORST 0              // the largest effort of the whole hand; with push.flag up to which tilt it holds, for each fill
+#define EFFORT_WORST 0              // the largest effort of the whole hand; with push.flag, the tilt up to which it holds, for each fill
 #define EFFORT_TIPS 1               // that of thumb and index tip alone
 #define EFFORT_PUSH 2               // of the kernel of reserves: the largest force beside the weight
 #define EFFORT_FRICTION 3           // .. the least friction with which all states are held
@@ -241,7 +242,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_POSE 1
 #define CONST_SDF_KIND 2
 #define CONST_OUTLINE_COUNT 3
-#define CONST_ARCS 4                // bits of the elements that may be arcs, where the outline is copied; -1: all
+#define CONST_ARCS 4                // bits of the elements that may be arcs, if the outline is copied; -1: all
 #define CONST_TORQUE 5
 #define CONST_REFERENCE 6
 #define CONST_TABLE 7               // whether the scene has a table, bool
@@ -251,35 +252,35 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_BARE 11               // .. whether contacts carry no moment (torsion 0), bool
 #define CONST_TOGETHER 12           // .. how many grips an invocation has, 1..
 #define CONST_ARM 13                // of the grips: azimuths at which the holder may take the vessel; 0: the scene has no arm
-#define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: where joints press; -1: not computed
+#define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: the joints' contacts; -1: not computed
 #define CONST_EFFORT_TASK 21        // of the efforts and reserves: EFFORT_WORST .. EFFORT_FRICTION
-#define CONST_PLACED 22             // first of PLACED_STRIDE planes, scratch: what the kernels of a grip hand on
-#define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
+#define CONST_PLACED 22             // first of PLACED_STRIDE planes, scratch: passed between the kernels of a grip
+#define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values by default
 #define CONST_TRACE_STEPS 41
 #define CONST_ADVANCE_STEPS 42
 #define CONST_GAP_STEPS 43
 #define CONST_GAP_TABLE_SIZE 44
 #define CONST_LATTICE_BITS 45       // of a sample: 32 or 16
 #define CONST_FRICTION 46           // of the loop: whether any case has friction, bool
-#define CONST_EFFORT_TOLERANCE 47   // Real, of an effort's bracket; 1e-3 where nothing is given
-#define CONST_FEW_STEPS 48          // of the grips: whether their steps are fewer than the core's, so that TURN_BUDGET holds, bool
+#define CONST_EFFORT_TOLERANCE 47   // Real, of an effort's bracket; 1e-3 by default
+#define CONST_FEW_STEPS 48          // of the grips: whether their steps are limited below the core's to keep within TURN_BUDGET, bool
 #define CONST_PLANE 320             // + field: first plane, or -1: not computed
 
 #define GROUP_SIZE 64
-// Entries that an invocation of the top-N selection goes through: with the shifts of a full list within TURN_BUDGET.
+// Entries per invocation of the top-N selection: with a full list's shifts within TURN_BUDGET.
 #define SELECT_ENTRIES 900
-#define SELECT_SCORES_TO_FIRST 0   // push.first: from where, to which half of the candidates
+#define SELECT_SCORES_TO_FIRST 0   // push.first: the source, and the target half of the candidates
 #define SELECT_FIRST_TO_SECOND 1
 #define SELECT_SECOND_TO_FIRST 2
 #define SELECT_SCORES_TO_SECOND 3
 
-// A vessel's and a scene's scalars, one uniform block. What branches on them alone costs time: lavapipe takes such numbers for constants, and may
-// compile the kernel anew in every dispatch.
+// Scalars of a vessel and a scene, in one uniform block. Branches on them alone cost time: lavapipe takes such numbers for constants, and may
+// recompile the kernel in every dispatch.
 #ifdef __cplusplus
 template <class Real>
 #endif
 struct Parameters {
-  Real bound_height;      // m: center and radius of a sphere that holds the vessel
+  Real bound_height;      // m: center and radius of a sphere that encloses the vessel
   Real bound_radius;
   Real lattice_x, lattice_y, lattice_z, lattice_spacing;  // m
   Real mouth_height, mouth_radius;            // of the cavity, m
@@ -300,7 +301,7 @@ struct Parameters {
   Real tip_radii;         // m, of thumb and index finger together, at the scene's scale; 0: strengths are the same at every opening
   Real pour_sense;        // +1 away, -1 towards
   Real table_top;         // m, the table's height and the clearance
-  Real lid_radius, lid_height;                // edge of the mouth's element in the outline, m; without one no point is above it
+  Real lid_radius, lid_height;                // edge of the mouth's element in the outline, m; with none, no point is above it
   Real shoulder_x, shoulder_y, shoulder_z;    // vessel frame, m
   Real upper_arm, forearm, wrist_radius, elbow_radius;                     // m
   Real flexion, extension, ulnar, radial, pronation, supination;           // ranges, rad
@@ -315,8 +316,8 @@ struct Parameters {
       cavity_count, lattice_nx, lattice_ny, lattice_nz, fills, tilts, quadrature_count;
 };
 
-// Push constants: grips of this chunk, distance between planes; first state and states for dispatches that are split; the bits of the
-// least score that is wanted; and a flag: whether efforts are for safe tilts, a score is its upper bound, or samples of a loop are late.
+// Push constants: number of grips of this chunk, distance between planes; first state and number of states for split dispatches; the bits of the
+// lowest wanted score; and a flag: whether efforts are for safe tilts, a score is its upper bound, or samples of a loop are late.
 #ifdef __cplusplus
 struct Push {
   std::uint32_t count, stride, first, number;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the lip holds back, once a vessel: one invocation a tilt, the whole degrees 0..180 first, then the scene's tilts.
+// What the lip holds back, once per vessel: one invocation per tilt, first the whole degrees 0..180, then the scene's tilts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The liquid of fills and tilts of a vessel, one invocation a state from push.first on, and what glass and liquid weigh together.
+// The liquid of fills and tilts of a vessel, one invocation per state from push.first on, and the weight of glass and liquid together.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -18,7 +18,7 @@ void main() {
   uint fill = state / scene.tilts;
   uint tilt = state % scene.tilts;
   Real filled = fills_in[fill] * scene.capacity;
-  // what poured at a smaller tilt is gone
+  // liquid that poured at a smaller tilt is gone
   Real volume = min(filled, capacity_in[uint(WHOLE_DEGREES) + tilt]);
   int before = min(int(tilts_in[3u * tilt + 2u] * (Real(90) / HALF_PI)), WHOLE_DEGREES - 1);
   for (int degree = 0; degree <= before; ++degree) volume = min(volume, capacity_in[degree]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The rendered wall, one invocation a case: push.number samples on from where the last dispatch left it, or from the start (push.first).
-// A dispatch is short, since drivers end an invocation's loops after so many iterations; what moves is kept between dispatches.
-// push.flag: whether these samples are late ones, whose largest energy is the answer.
+// The rendered wall, one invocation per case: push.number samples, continuing the last dispatch or from the start (push.first). Dispatches are short,
+// because drivers end an invocation's loops after so many iterations; the moving state is kept between dispatches. push.flag: these samples are late
+// ones, whose largest energy is the answer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

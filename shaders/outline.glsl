@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the vessel's outline comes from, chosen when the shader is compiled: 0 reads elements and their number from a storage buffer in the loop; 1
-// copies
-// them into registers once, the number specialized (docs/results has the cost).
+// The source of the vessel's outline, chosen at compile time: 0 reads elements and their number from a storage buffer in the loop; 1 copies them into
+// registers once, with a specialized number (docs/results has the cost).
 #ifndef OUTLINE_GLSL
 #define OUTLINE_GLSL
 
@@ -21,7 +20,7 @@ void load_outline() {}
 #else
 
 layout(constant_id = CONST_OUTLINE_COUNT) const int OUTLINE_COUNT = MAX_OUTLINE;
-// Not a uniform block: lavapipe 22.3 takes numbers of one that a branch depends on for constants, and may compile the kernel anew in every dispatch.
+// Not a uniform block: lavapipe 22.3 takes its numbers that decide a branch for constants, and may recompile the kernel in every dispatch.
 layout(std430, binding = BINDING_OUTLINE) readonly buffer OutlineBlock { Vec4 outline_values[]; };
 layout(constant_id = CONST_ARCS) const int ARCS = -1;
 #define OUTLINE_LOOP [[unroll]]
@@ -32,7 +31,7 @@ void load_outline() {
     Vec4 ends = outline_values[2 * i];
     Vec4 rest = outline_values[2 * i + 1];
     outline_copy[i] = make_element(ends.xy, ends.zw, rest.xy, rest.z, rest.w);
-    if ((ARCS >> i & 1) == 0) outline_copy[i].side = 0;  // a driver then leaves out what arcs take
+    if ((ARCS >> i & 1) == 0) outline_copy[i].side = 0;  // a driver then omits the code for arcs
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels 8 and 11 of one feasible grip an invocation: whether the hand reaches into itself, and whether an arm reaches it.
+// Kernels 8 and 11, one feasible grip per invocation: whether the hand reaches into itself, and whether an arm reaches it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -30,8 +30,8 @@ Ball chain(int joint) { return chain_copy[joint]; }
 Ball around(int phalanx) { return around_copy[phalanx]; }
 #endif
 
-// As core/grip.cpp has it. Places that are constants are read for all lanes at once, others lane by lane: so a first pass finds which
-// of the other bones are near, and only these are evaluated.
+// As in core/grip.cpp. Constant places are read once for all lanes, others lane by lane, so a first pass finds which of the other bones are near, and
+// only these are evaluated.
 Real digits_overlap() {
   load_chain();
   Real deepest = -NO_DISTANCE;

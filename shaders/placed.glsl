@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of a grip hand on to each other, in planes that nobody may have asked for.
+// Data passed between the kernels of a grip, in planes that nobody may have requested.
 #ifndef PLACED_GLSL
 #define PLACED_GLSL
 
@@ -9,7 +9,7 @@
 layout(constant_id = CONST_PLACED) const int PLACED = -1;
 layout(constant_id = CONST_POSE) const int POSE = POSE_ARTICULATED;
 
-// The feasible grip of this invocation, its status and the scale of its hand.
+// This invocation's feasible grip, its status and the scale of its hand.
 uint grip, status;
 Real scale;
 

@@ -40,7 +40,7 @@ struct FingerWatch {
   bool looks, swings;
 };
 
-// Part of FingerWatch in the core; outside of the struct here, because the struct is copied.
+// Part of FingerWatch in the core; outside the struct here, because the struct is copied.
 Real until[PLACES];
 
 struct RestingFinger {
@@ -169,15 +169,14 @@ int decide_turn(Vec3 clear, FingerMotion motion, out bool blocked) {
   return blocked ? 3 : joint;
 }
 
-// By selection where the core branches: in nearly every turn of the loop some lane takes each of its ways, and then all wait for it. SwiftShader does
-// not
-// compile chains of selections that are much longer.
+// Uses selection where the core branches: in nearly every turn of the loop some lane takes each branch, and all lanes wait for it. SwiftShader does
+// not compile selection chains that are much longer.
 RestingFinger rest_finger(Finger finger, Real limit) {
   bool undecided = false;
   FingerMotion motion = start_motion(limit);
   FingerWatch watch = FingerWatch(Vec3(0), Vec3(0), Vec3(NO_DISTANCE), 0, -1, true, true);
   UNROLL_PRECISE for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
-  // Left at its head alone: of a value that a loop computes and that is read behind it, llvmpipe keeps what the last lane's turn makes of it.
+  // The loop ends only at its head: llvmpipe gives every lane the last lane's value of a variable that a loop computes and later code reads.
   [[dont_unroll]] for (bool ends_here = false; !ends_here;) {
     Place place = watched_place(finger, bend_finger(finger.lengths, segment_angles(motion)), motion.rates, watch.number);
     Support support = support_at(place.ball.place);

@@ -35,20 +35,19 @@
 
 #include "layout.h"
 
-// Where iterations end, as core/real.h's Limits.
+// Where iterations end, as in core/real.h's Limits.
 layout(constant_id = CONST_STOP_TOLERANCE) const Real STOP_TOLERANCE = NAMED_STOP_TOLERANCE;
 layout(constant_id = CONST_TRACE_STEPS) const int LIMIT_TRACE_STEPS = TRACE_STEPS;
 layout(constant_id = CONST_ADVANCE_STEPS) const int LIMIT_ADVANCE_STEPS = ADVANCE_STEPS;
 layout(constant_id = CONST_GAP_STEPS) const int LIMIT_GAP_STEPS = GAP_STEPS;
 layout(constant_id = CONST_FEW_STEPS) const bool FEW_STEPS = false;
 
-// For numbers that are not NaN. A driver's min and max handle NaN, and cost three times as much.
+// For numbers that are not NaN. A driver's min and max handle NaN, at three times the cost.
 Real smaller(Real a, Real b) { return b < a ? b : a; }
 Real larger(Real a, Real b) { return a < b ? b : a; }
 
-// By its bits: a driver without SignedZeroInfNanPreserve may take comparisons for those of numbers. Such a driver may take all numbers for finite,
-// too:
-// whether one is, the kernels ask by `< NO_DISTANCE`.
+// By its bits, because a driver without SignedZeroInfNanPreserve may assume that comparisons have no NaN. It may also assume that all numbers are
+// finite, so the kernels test finiteness by `< NO_DISTANCE`.
 bool is_no_number(Real a) {
 #if REAL_IS_DOUBLE
   return (unpackDouble2x32(a).y & 0x7fffffffu) > 0x7ff00000u;
@@ -57,7 +56,7 @@ bool is_no_number(Real a) {
 #endif
 }
 
-// Index of this invocation where groups run along x and then along y, as the host dispatches them.
+// Index of this invocation if groups run along x and then along y, as the host dispatches them.
 #define INVOCATION ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)
 
 layout(std140, binding = BINDING_PARAMETERS) uniform ParameterBlock { Parameters scene; };
@@ -71,13 +70,14 @@ Real push_floor() {
 #endif
 }
 
-// How many lanes of a vector do useful work, for a benchmark that compiles the kernels with COUNTS_LANES. Nothing in the program's own.
+// Counts how many lanes of a vector do useful work, for a benchmark that compiles the kernels with COUNTS_LANES. The program's own kernels have none
+// of it.
 #ifdef COUNTS_LANES
 #extension GL_KHR_shader_subgroup_ballot : require
 
 layout(std430, binding = BINDING_LANES) buffer LaneBlock { uint useful_lanes, all_lanes; };
 
-// Each time that a subgroup comes by: its lanes that are here and for which this is useful, and all that it has.
+// On each visit of a subgroup, adds its active useful lanes, and all its lanes.
 void count_lanes(bool is_useful) {
   uint useful = subgroupBallotBitCount(subgroupBallot(is_useful));
   if (subgroupElect()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one plausible grip an invocation has in reserve, as push_held and friction_needed of core/grip_effort.cpp: the largest force beside the
-// weight, or the least friction with which every state of a uniform block is held.
+// One plausible grip per invocation, as push_held and friction_needed of core/grip_effort.cpp: the largest force in addition to the weight, or the
+// least friction at which every state of a uniform block is held.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -9,13 +9,13 @@
 #define MOST_PUSH Real(1000000)
 #define MOST_FRICTION Real(10)
 #define FRICTION_STEP RATIO(1, 1000)
-#define QUICK_RAISES 20  // of the friction for one state, after which its range is halved
+#define QUICK_RAISES 20  // of the friction for one state; then its range is halved
 #define PUSHES 7u        // the weight alone, and a force along six directions
 
 int raise_turns = 0;  // in which this grip searched for a friction
 
-// The friction at which h(u) comes to a value: Newton's method, as EffortSolver::least_friction. What each contact does along u without friction, and
-// what a friction of 1 adds, are the same in all turns: where they are kept, they are found once.
+// The friction at which h(u) reaches a value: Newton's method, as in EffortSolver::least_friction. Each contact's support along u without friction,
+// and the increase by a friction of 1, are the same in all turns, so where they are kept they are found once.
 Real least_friction(Six direction, Real value) {
 #if !SMALL
   Real along_copy[JOINTS], across_copy[JOINTS];
@@ -83,7 +83,7 @@ void main() {
   uint grip;
   bool has_grip = take_grip(INVOCATION < push.count && is_busy(INVOCATION), grip);
   ONCE_IF(has_grip) load_contacts(grip);
-  // the friction begins where the worst state's direction puts it, and goes on there in the blocks that follow
+  // the friction starts at the value of the worst state's direction, and continues from there in later blocks
   uint hardest = 0u;
   bool is_first = TASK == EFFORT_FRICTION && push.first == 0u;
   ONCE_IF(has_grip && TASK == EFFORT_FRICTION) {
@@ -122,7 +122,7 @@ void main() {
       finish(search, solve);
       if (!search.has_basis && search.is_warm && !is_first) continue;  // once more from the start
       bool is_held = solve.effort * (Real(1) - HALF_TOLERANCE) <= Real(1);
-      // one call for both that ask: each call is compiled for itself
+      // one call for both uses, because each call is compiled separately
       bool asks = TASK == EFFORT_FRICTION && (is_first || (!is_held && !(friction >= MOST_FRICTION)));
       Real asked = friction;
       ONCE_IF(asks) asked = least_friction(column(CUT), dot6(column(CUT), solve.wanted));

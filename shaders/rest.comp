@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernel 5 of one feasible grip an invocation: middle, ring and little finger come to rest on the vessel.
+// Kernel 5, one feasible grip per invocation: brings middle, ring and little finger to rest on the vessel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -13,7 +13,7 @@ void put_finger(int first_joint, FingerPoints points) {
   put_point(PLANE_POSED, first_joint + 4, grip, points.tip);
 }
 
-// Which of the last three points touched before they moved, a bit each.
+// A bit for each of the last three points that touched before it moved.
 int touched_before(Vec3 separations) {
   return (separations.x <= HAND_CONTACT_TOLERANCE ? 1 : 0) | (separations.y <= HAND_CONTACT_TOLERANCE ? 2 : 0) |
          (separations.z <= HAND_CONTACT_TOLERANCE ? 4 : 0);

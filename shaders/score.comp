@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scores of one grip an invocation, from the planes that the kernels before it wrote. With push.flag, before efforts are known: the score that
-// no effort exceeds.
+// Scores, one grip per invocation, from the planes of the earlier kernels. With push.flag, before efforts are known: an upper bound of the score for
+// any effort.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

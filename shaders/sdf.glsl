@@ -45,7 +45,7 @@ bool element_crosses(Element element, Vec2 q) {
   bool up = element.b.y > element.a.y;
   Real low = up ? element.a.y : element.b.y;
   Real high = up ? element.b.y : element.a.y;
-  // a level element is not crossed: explicit, so that a driver leaves it out
+  // a level element is not crossed: written out, so that a driver omits it
   bool spans = low < high && !(q.y < low || q.y >= high);
   if (element.side == 0) {
     Vec2 along = element.b - element.a;
@@ -101,8 +101,8 @@ bool element_supports(Element element, Vec2 q) {
   return (element.supports & (element_spans(element, q) ? SUPPORTS_BETWEEN : end)) != 0;
 }
 
-// What belongs to the nearest element is picked by comparison as the loop goes, never by indexing with its number: a constant table indexed at
-// run time is what drivers compile slowest.
+// Data of the nearest element is picked by comparison during the loop, never by indexing with its number: drivers compile a constant table with
+// run-time indices slowest of all.
 Nearest nearest_element(Vec2 q, out bool inside) {
   COUNT_LANES(true);
   Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false, Vec2(1, 0), false, false, false);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The best of many grips without reading all scores back: each invocation keeps the push.number best of up to SELECT_ENTRIES of them and
-// hands them on; the host dispatches again over what was handed on until one invocation is left. Higher scores first, of equal ones the
-// lower index, so that the answer does not depend on how grips fell to invocations. push.first is one of SELECT_*: from the scores, or
-// from one half of the candidates into the other.
+// Finds the best of many grips without reading back all scores: each invocation keeps the push.number best of up to SELECT_ENTRIES grips and passes
+// them on; the host dispatches again over these until one invocation is left. Higher scores come first, then the lower index, so that the answer does
+// not depend on how grips were distributed. push.first is one of SELECT_*: from the scores, or from one half of the candidates into the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -23,9 +22,9 @@ void main() {
   uint middle = uint(candidate_scores.length()) / 2u;
   uint from = push.first == SELECT_SECOND_TO_FIRST ? middle : 0u;
   uint to = push.first == SELECT_FIRST_TO_SECOND || push.first == SELECT_SCORES_TO_SECOND ? middle : 0u;
-  // a score must pass push.floor_*, the worst of the best so far, to matter; -1 stands for none, as any grip's score is at least 0
+  // a score must exceed push.floor_*, the worst of the best so far, to matter; -1 stands for none, since every score is at least 0
   Real floor_score = push_floor();
-  // an ordered list where it is handed on; few entries ever enter it, so shifting it is cheaper than sorting with its neighbors
+  // keeps the ordered list in the output; few entries ever enter it, so shifting is cheaper than sorting with neighbors
   uint list = to + block * push.number, last = list + push.number - 1u;
   for (uint i = list; i <= last; ++i) {
     candidate_scores[i] = Real(-1);

@@ -5,7 +5,7 @@
 
 #include "hand.glsl"
 
-// Whether the scene has a table: without one nothing of this kernel is compiled.
+// Whether the scene has a table; without one, nothing of this kernel is compiled.
 layout(constant_id = CONST_TABLE) const bool ON_TABLE = false;
 
 Real depth_in_table(Vec3 p, Real radius) { return radius - (p.y - scene.table_top); }

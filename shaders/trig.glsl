@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Twin of core/trig.cpp: polynomials, since Vulkan promises its own sine only to 2^-11. Argument reduction to [-pi/4, pi/4] with pi/2 in
-// three parts; minimax polynomials there, fitted for this project. Errors in units in the last place of 1 (2^-23, 2^-52), float and double
-// (tests/shaders/parity_leaf_test.cpp): sine and cosine 1 for |angle| <= 16; arc cosine 3; angle_between 4, its arguments' rounding left aside;
+// Twin of core/trig.cpp: polynomials, because Vulkan guarantees its own sine only to 2^-11. Arguments are reduced to [-pi/4, pi/4] with pi/2 in three
+// parts; the minimax polynomials there were fitted for this project. Errors in units in the last place of 1 (2^-23, 2^-52), float and double
+// (tests/shaders/parity_leaf_test.cpp): sine and cosine 1 for |angle| <= 16; arc cosine 3; angle_between 4, apart from its arguments' rounding;
 // direction_angle 4.
 #ifndef TRIG_GLSL
 #define TRIG_GLSL
@@ -34,7 +34,7 @@ void sine_cosine(Real angle, out Real sine_out, out Real cosine_out) {
   cosine_out = ((quarter + 1) & 2) != 0 ? -second : second;
 }
 
-// Beyond 1/2 the half angle serves: acos x = 2 asin sqrt((1 - x) / 2).
+// Beyond 1/2 it uses the half angle: acos x = 2 asin sqrt((1 - x) / 2).
 Real arc_cosine(Real x) {
   Real size = min(abs(x), Real(1));
   bool steep = size > Real(0.5);
@@ -61,7 +61,7 @@ Real angle_between(Vec3 a, Vec3 b) {
   return acute ? angle : Real(2) * HALF_PI - angle;
 }
 
-// The arc sine of the smaller side of the triangle: that of the larger would lose digits.
+// The arc sine of the triangle's smaller side; that of the larger would lose digits.
 Real direction_angle(Real y, Real x) {
   Real size = sqrt(x * x + y * y);
   if (!(size > Real(0))) return Real(0);

@@ -27,7 +27,7 @@ struct wh_batch {
 
 namespace {
 
-// The caller's rows, wherever they lie: numbers need not be aligned.
+// The caller's rows, at any address: numbers need not be aligned.
 struct Rows {
   const double* grips;
   ptrdiff_t stride;  // bytes
@@ -38,7 +38,7 @@ struct Rows {
   }
 };
 
-// Whether `count` places so far apart stay within what a pointer can reach.
+// Whether `count` elements at this distance stay within a pointer's range.
 bool can_reach(std::size_t count, ptrdiff_t stride) noexcept {
   ptrdiff_t last = 0;
   return count == 0 || (count - 1 <= static_cast<std::size_t>(PTRDIFF_MAX) &&
@@ -46,7 +46,7 @@ bool can_reach(std::size_t count, ptrdiff_t stride) noexcept {
                         last <= PTRDIFF_MAX / 4);
 }
 
-// Strides in bytes, those that the caller left out filled in.
+// Strides in bytes, with the caller's omissions filled in.
 struct Place {
   char* data;
   int type;

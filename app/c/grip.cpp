@@ -67,7 +67,7 @@ wh_grip_result result_of(const GripResult& grip, const GripScore& score) noexcep
   return out;
 }
 
-// The fields of the state's struct; `hold` where the scene has strengths.
+// The fields of the state's struct; `hold` if the scene has strengths.
 wh_grip_state state_of(const GripState& found, const StateHold* hold) noexcept {
   wh_grip_state out{};
   out.fill = found.fill;

@@ -31,7 +31,7 @@ void copy(const std::array<double, N>& from, double* to) noexcept {
   for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
 }
 
-constexpr double ROTATION_TOLERANCE = 1e-3;  // engines turn in float; what is further off was not meant as a rotation
+constexpr double ROTATION_TOLERANCE = 1e-3;  // engines rotate in float; anything further off was not meant as a rotation
 
 bool is_finite(const wh_measurement& in) noexcept {
   const auto all = [](const double* numbers, int count) {

@@ -11,10 +11,10 @@
 namespace wholehand {
 namespace {
 
-// Has a fixed length, so that it can report a failure for lack of memory.
+// Has a fixed length, so that it can report a lack of memory.
 thread_local char message[2048] = "";
 
-// Remedies in the words of the C face: arguments where the program names options.
+// Remedies in the words of the C interface: arguments where the program names options.
 const char* remedy_words(Remedy remedy) noexcept {
   switch (remedy) {
     case Remedy::core:

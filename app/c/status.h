@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every call of the C face does at its border: nothing is thrown across it, and what went wrong is a line of the thread.
+// What every call of the C interface does at its border: no exception crosses it, and an error becomes a line of the thread.
 #pragma once
 
 #include <atomic>
@@ -14,15 +14,15 @@
 
 namespace wholehand {
 
-// Keeps the line for wh_message(), cut to its room and without control characters, and gives the status back. The first failure of a
-// thread may allocate the room of its line.
+// Stores the line for wh_message(), cut to its room and without control characters, and returns the status. A thread's first failure may allocate the
+// room for its line.
 [[gnu::format(printf, 2, 3)]] wh_status fail(wh_status status, const char* format, ...) noexcept;
 wh_status fail(wh_status status, const std::string& line) noexcept;
 
-// With what would help, in the words of the C face.
+// With the remedy, in the words of the C interface.
 wh_status fail(const Error& error) noexcept;
 
-// Runs what a call does. `work` returns a wh_status, or throws.
+// Runs the work of a call. `work` returns a wh_status, or throws.
 template <class Work>
 wh_status guarded(const Work& work) noexcept {
   try {
@@ -38,17 +38,17 @@ wh_status guarded(const Work& work) noexcept {
   }
 }
 
-// The size that a struct had in the first header of this WH_ABI. When a struct grows at its end, its size before is written here.
+// The size that a struct had in the first header of this WH_ABI. If a struct grows at its end, its earlier size is written here.
 template <class Struct>
 inline constexpr std::size_t FIRST_SIZE = sizeof(Struct);
 template <>
 inline constexpr std::size_t FIRST_SIZE<wh_grip_result> = offsetof(wh_grip_result, wrist_share);
 
-// Whether a caller's struct may be as large as it says: at least as in the first header, and not larger than here. A larger one is of
-// a later header, and what it asks for this library does not know. `place` begins the line of a failure.
+// Whether the size that a caller's struct claims is allowed: at least that of the first header, and at most that of this one. A larger struct comes
+// from a later header and may ask for something that this library does not know. `place` begins the failure's line.
 wh_status check_size(std::size_t size, std::size_t first, std::size_t own, const char* place) noexcept;
 
-// Takes the caller's struct: members that the caller's version does not know are 0.
+// Takes the caller's struct; members unknown to the caller's version are 0.
 template <class Struct>
 wh_status take_over(const Struct* in, Struct& own, const char* place) noexcept {
   if (const wh_status status = check_size(in ? in->size : 0, FIRST_SIZE<Struct>, sizeof own, place); status != WH_OK) return status;
@@ -58,13 +58,13 @@ wh_status take_over(const Struct* in, Struct& own, const char* place) noexcept {
   return WH_OK;
 }
 
-// Whether `out` can take an answer: before any work.
+// Whether `out` can take an answer; checked before any work.
 template <class Struct>
 wh_status check_answer(const Struct* out, const char* place) noexcept {
   return check_size(out ? out->size : 0, FIRST_SIZE<Struct>, sizeof *out, place);
 }
 
-// As much of it as the caller's version knows. `out` has been checked.
+// Copies as much of it as the caller's version knows. `out` has been checked.
 template <class Struct>
 void give_back(const Struct& own, Struct* out) noexcept {
   const std::size_t size = out->size;
@@ -72,7 +72,7 @@ void give_back(const Struct& own, Struct* out) noexcept {
   out->size = size;
 }
 
-// One thread at a time; a second one is turned away and does not wait.
+// Only one thread at a time; a second one is refused and does not wait.
 class Entered {
  public:
   explicit Entered(std::atomic_flag& is_in_use) noexcept

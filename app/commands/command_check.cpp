@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand check: is the device's answer the core's answer?
+// wholehand check: does the device compute what the core computes?
 #include <CLI/CLI.hpp>
 
 #include <memory>

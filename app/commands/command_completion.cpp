@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand completion: what a shell needs to complete the words of all commands. Packages have it in place, so --help leaves it out.
+// wholehand completion: what a shell needs to complete the words of all commands. Packages install it, so --help omits it.
 #include <CLI/CLI.hpp>
 
 #include <iterator>
@@ -37,7 +37,7 @@ std::vector<std::string> offered_words(CLI::Option& option) {
   }
 }
 
-// From the type that --help shows: SCENE, DIR, FILE, FILE.nc ..., and from what the option offers.
+// From the type that --help shows (SCENE, DIR, FILE, FILE.nc ...) and the option's values.
 CompletedValue value_of(CLI::Option& option, const CLI::App& program) {
   CompletedValue value;
   value.words = offered_words(option);

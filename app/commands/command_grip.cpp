@@ -148,7 +148,7 @@ ChosenGrip asked_grip(const GripArguments& arguments) {
   return chosen;
 }
 
-// The place of the hand scale among those that the sweep lists.
+// The index of the hand scale among those that the sweep lists.
 std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
   const std::optional<double> wanted = read_hand_scale(arguments);
   if (plan.hand_scales() == 1) {
@@ -165,7 +165,7 @@ std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
                                 fmt::join(known, ", ")));
 }
 
-// Where the sweep refined the grip of a rank.
+// The place to which the sweep refined the grip of a rank.
 GripInput refined_grip(const SweepResult& result, const Plan& plan, std::size_t vessel, std::size_t list, std::size_t rank) {
   const auto refined = result.refined(vessel, list % plan.hand_scales());
   if (!refined[rank - 1])
@@ -174,7 +174,7 @@ GripInput refined_grip(const SweepResult& result, const Plan& plan, std::size_t 
   return refined[rank - 1]->grip;
 }
 
-// A grip of a sweep's best, or of a list that was made of its result.
+// A grip of a sweep's best, or of a list made from its result.
 ChosenGrip ranked_grip(const GripArguments& arguments) {
   const auto rank = static_cast<std::size_t>(parse_integer(arguments.rank, "--rank", {1, ranges::BEST.high}));
   SweepResult result(arguments.scene);
@@ -219,7 +219,7 @@ ExitCode grip(const GripArguments& given) {
   load_meshes(asked, [&] { return largest_buffer(arguments.on); });  // lattices as wide as this hand needs
   scene.vessels = asked.vessels;
   print_cavity_notes(scene);
-  // with --tilt-deg the efforts of these tilts are there
+  // --tilt-deg adds the efforts of these tilts
   if (const std::string note = idle_strength_note(scene); !note.empty() && axes.tilts.empty()) print_note(note);
   print_float_warnings(asked, precision);
   GripReport report;

@@ -26,7 +26,7 @@ namespace wholehand {
 namespace {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// runs before the initializers of all libraries, which fail too where there is no memory
+// runs before the initializers of all libraries, which also fail without memory
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)() = prepare_failure_line;
 #endif
 
@@ -42,7 +42,7 @@ int report(const Program& program, ExitCode code, const std::string& line) {
   return to_int(code);
 }
 
-// Names the unknown argument and what the user may have meant; "" where the parser's own words say it all.
+// Names the unknown argument and what the user may have meant; "" if the parser's own words suffice.
 std::string unexpected_argument(const CLI::App& command, const CLI::ParseError& error) {
   for (const std::string& extra : command.remaining()) {
     if (extra[0] != '-') continue;
@@ -116,7 +116,7 @@ int run_program(int argc, char** argv, const Program& program) {
 }
 
 int end_process(int code) {
-  if (host::has_abandoned_devices()) _exit(code);  // the driver still works on what the end of a process destroys
+  if (host::has_abandoned_devices()) _exit(code);  // the driver still uses what the end of a process destroys
   return code;
 }
 

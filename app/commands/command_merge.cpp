@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand merge: one result of the files that machines without a common file system wrote.
+// wholehand merge: makes one result of the files that machines without a common file system wrote.
 #include <CLI/CLI.hpp>
 
 #include <filesystem>

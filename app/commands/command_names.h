@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The names of commands and of their options, for messages: as the command line knows them, so that no list is kept twice.
+// Names of commands and their options for messages, taken from the command line so that no list is kept twice.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ std::string command_list(const CLI::App& app, const char* last);
 // The error message for a command that `app` does not have.
 std::string unknown_command(const CLI::App& app, const std::string& name);
 
-// The innermost command that the arguments named; `app` itself before one is known.
+// The innermost command named by the arguments; `app` itself before one is known.
 const CLI::App& named_command(const CLI::App& app);
 
 // "wholehand stability wall".

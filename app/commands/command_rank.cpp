@@ -57,11 +57,11 @@ struct RankedResult {
   Scene scene;
   Plan plan;
   Ranking ranking{};
-  std::vector<std::string> unheld{};  // a line for each list of which no grip holds
+  std::vector<std::string> unheld{};  // a line for each list without a holding grip
 };
 using RankedResults = std::vector<std::unique_ptr<RankedResult>>;
 
-// Grips of the lists that have one name, ranked together.
+// Grips of the lists with the same name, ranked together.
 struct JointList {
   std::string name;
   std::vector<std::pair<std::size_t, std::size_t>> parts{};  // results, and which of their lists
@@ -85,7 +85,7 @@ void check_list_file(const RankArguments& arguments, const std::string& of_resul
   check_overwrites_kind(path, BEST_CSV_START, "list of grips", "-o");
 }
 
-// Scores of several results compare only where one rule made them.
+// Scores of several results are comparable only if one rule made them.
 void check_one_rule(const RankedResult& first, const RankedResult& other, const std::string& weights) {
   const auto rules = scene_rules(other.scene), wanted = scene_rules(first.scene);
   auto is_shared = shared_rules(first.scene, other.scene);
@@ -99,7 +99,7 @@ void check_one_rule(const RankedResult& first, const RankedResult& other, const 
   }
 }
 
-// By which one rule several results are ranked together; empty for one result.
+// The common rule by which several results are ranked together; empty for one result.
 std::string rule_line(const RankedResults& results, const RankArguments& arguments, RankBy by) {
   if (results.size() < 2) return "";
   const auto rules = scene_rules(results.front()->scene);
@@ -118,7 +118,7 @@ OutputNames glb_names(const std::string& list) {
   return names;
 }
 
-// As of unheld_lines. All are empty where the scene's meshes or the result's efforts are not there.
+// As unheld_lines gives them. All are empty if the scene's meshes or the result's efforts are missing.
 std::vector<std::string> unheld_lines_of(const RankedResult& one) {
   const std::size_t lists = one.ranking.lists.size();
   bool is_any = false;
@@ -147,7 +147,7 @@ std::vector<JointList> joint_lists(const RankedResults& results, const RankReque
   return lists;
 }
 
-// The note for a list of which no grip holds.
+// The note for a list without a holding grip.
 std::string unheld_text(const RankedResults& results, const JointList& list) {
   const auto& [r, place] = list.parts.front();
   const std::string& line = results[r]->unheld[place];
@@ -155,7 +155,7 @@ std::string unheld_text(const RankedResults& results, const JointList& list) {
                                                : line + "; --least-bad lists such grips";
 }
 
-// How many grips of a list there are, by whether they match and hold.
+// Number of grips of a list, by whether they match and hold.
 std::string counts_text(const Ranking& ranking, std::size_t list, bool has_conditions) {
   const std::uint64_t plausible = ranking.plausible[list], not_held = ranking.not_held[list], held = plausible - not_held;
   const std::string of_these = not_held > 0 ? fmt::format(", {} not held", readable_number(not_held)) : "";

@@ -30,7 +30,7 @@ struct SessionArguments {
 constexpr FolderTable TABLES[] = {{"session.csv", "grasp,vessel,start_s,"}, {"states.csv", "start_s,duration_s,state,vessel\n"}};
 constexpr const char* PICTURE = "session.svg";
 
-// The tables, and the picture where there is something to draw. What could not be drawn, and why.
+// The tables, and the picture if there is something to draw. Returns what could not be drawn, and why.
 std::string write_session_files(const std::string& folder, const Recording& recording, const SessionReport& report) {
   const std::string picture = folder + "/" + PICTURE;
   const bool has_own_picture = has_mark(picture, PICTURE_MARK);

@@ -28,7 +28,7 @@ struct StudyArguments {
   bool quick = false, resume = false;
 };
 
-// `asked` people in each experiment that is named; absent: as many as each has by default.
+// `asked` people in each named experiment; absent: each one's default.
 StudyPeople people_of(const std::string& experiment, const std::optional<std::uint64_t>& asked, bool is_quick) {
   StudyPeople people = is_quick ? QUICK_PEOPLE : StudyPeople{};
   if (asked) people = {*asked, *asked, *asked};

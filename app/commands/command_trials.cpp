@@ -30,7 +30,7 @@ struct TrialsArguments {
   bool quick = false, resume = false;
 };
 
-// One of two words; `first` where the text is empty.
+// One of two words; `first` if the text is empty.
 bool is_second(const std::string& text, const char* option, const char* first, const char* second) {
   if (text.empty() || text == first) return false;
   if (text == second) return true;
@@ -53,7 +53,7 @@ std::vector<double> read_ascending(const std::vector<std::string>& texts, const 
   return values;
 }
 
-// Pushes are in one state alone: what asks for others would be ignored.
+// Pushes are tried in only one state, so a request for others would be ignored.
 void check_pushed_states(const TrialOptions& options) {
   if (options.fill_tilt) return;
   if (!options.tilts.empty())
@@ -65,7 +65,7 @@ void check_pushed_states(const TrialOptions& options) {
                     options.fills.size()));
 }
 
-// Robust scores are of the scene's own masses, and of tilts.
+// Robust scores need the scene's own masses, and tilts.
 void check_scatter(const TrialOptions& options) {
   if (options.scatter == 0) return;
   if (options.six_forces) throw usage_error("--scatter: pushes are not scattered; leave --protocol out");

@@ -33,7 +33,7 @@
 namespace wholehand {
 namespace {
 
-constexpr std::size_t MOST_SHOWN = 100;  // grips a vessel: a longer list is not for eyes
+constexpr std::size_t MOST_SHOWN = 100;  // grips per vessel: a longer list is unreadable
 
 struct ViewArguments {
   std::string file, port, list;
@@ -41,7 +41,7 @@ struct ViewArguments {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-// A file that is something else is not called a damaged recording.
+// Does not call another kind of file a damaged recording.
 void check_is_recording(const std::string& path) {
   constexpr const char* TAKEN =
       "; view takes a recording of `wholehand live --record` or of `wholehand trials`, or a result of `wholehand sweep`; "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The commands: each adds itself to the command line and, once that is parsed and names it, leaves what to do in `action`.
+// The commands: each adds itself to the command line and, once parsing selects it, stores its work in `action`.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ namespace wholehand {
 
 using Action = std::function<ExitCode()>;
 
-// Does a sweep of the scene that `read_scene` answers.
+// Sweeps the scene that `read_scene` returns.
 using SweepRunner = std::function<ExitCode(const std::function<Scene()>& read_scene, const SweepOptions& options)>;
 
 void add_sweep_command(CLI::App& app, Action& action);                                 // by this process alone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Completion of the command line in shells. The commands are described without the parser; each shell's script is written from that.
+// Completion of the command line in shells. Commands are described independently of the parser, and each shell's script is generated from that.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace wholehand {
 // The possible values of an option or argument.
 struct CompletedValue {
   std::vector<std::string> words;
-  std::vector<std::string> before_files;  // of the words, those that end in ':' and go on with a file: "replay:"
-  std::vector<std::string> endings;  // files with these endings, without the dot; "*": with any. Only after before_files, if any
-  bool has_folders = false;          // folders, for their own sake
+  std::vector<std::string> before_files;  // words that end in ':' and continue with a file: "replay:"
+  std::vector<std::string> endings;       // files with these endings, without the dot; "*": any. Only after before_files, if any
+  bool has_folders = false;               // folders as values themselves
 };
 
 struct CompletedOption {

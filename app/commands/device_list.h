@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The devices and grippers of this machine, as lines that say how to ask for them.
+// The devices and grippers of this machine, as lines that say how to select them.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// Prints what computes: the Vulkan devices and what each can do, or why there is none and what helps, and the core.
+// Prints what can compute: the Vulkan devices with their abilities (or why there is none, and the remedy), and the core.
 void print_devices();
 
 // Grippers as lines for people, each ended.

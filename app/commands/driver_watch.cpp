@@ -8,7 +8,7 @@
 namespace wholehand {
 namespace {
 
-// Takes no lock and no memory: the hanging thread may hold a lock, and memory may be what is missing.
+// Takes no lock and no memory: the hanging thread may hold a lock, and the cause may be a lack of memory.
 void on_alarm(int) {
   constexpr char LINE[] = "wholehand: the Vulkan driver did not return within 150 s; try again, or use --on core\n";
   static_assert(DRIVER_PATIENCE == 150, "as the line says");

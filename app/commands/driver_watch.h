@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The end of a program whose Vulkan driver keeps one of its calls for ever, as a driver without memory may.
+// Ends a program whose Vulkan driver never returns from a call, as a driver without memory may do.
 #pragma once
 
 #include <string>
 
 namespace wholehand {
 
-constexpr unsigned DRIVER_PATIENCE = 150;  // s: more than DeviceOptions::wait_seconds, after which the program has words of its own
+constexpr unsigned DRIVER_PATIENCE = 150;  // s: more than DeviceOptions::wait_seconds, after which the program reports by itself
 
-// While it lives, a program that asks a Vulkan device for one answer ends after DRIVER_PATIENCE with one line and exit code 3. Does nothing for the
-// core. One at a time: it takes the process' alarm.
+// While it lives, a program that waits for one answer of a Vulkan device ends after DRIVER_PATIENCE with one line and exit code 3. Does nothing for
+// the core. Only one at a time, because it uses the process's alarm.
 class DriverWatch {
  public:
   explicit DriverWatch(const std::string& on);

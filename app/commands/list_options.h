@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options --list, --wide and --rank-by: how much of a list of grips a command prints, and in which order.
+// The options --list, --wide and --rank-by: how many grips of a list a command prints, and in which order.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -56,12 +56,12 @@
 namespace wholehand {
 namespace {
 
-constexpr double RING_TIME = 4;  // s of ticks that wait for a disk that pauses
+constexpr double RING_TIME = 4;  // s of ticks that wait while a disk pauses
 constexpr std::size_t LEAST_RING = 4096;
 constexpr auto LOOK = std::chrono::milliseconds(50);  // between two checks for events
-// between two looks of the recorder into the ring where a display shows the session
+// between two looks of the recorder into the ring if a display shows the session
 constexpr std::chrono::microseconds SHOWN_LOOK{static_cast<std::int64_t>(1e6 / DISPLAY_RATE)};
-constexpr int LOST_LOOKS = 3;  // in a row that find a call lost: after a stop of the process it may return yet
+constexpr int LOST_LOOKS = 3;  // this many in a row mean a lost call: after a stop of the process it may still return
 constexpr const char* REPLAY = "replay:";
 constexpr const char* RECORD = "--record";
 
@@ -108,7 +108,7 @@ Percentiles percentiles_of(const Histogram& times) {
   return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.largest()};
 }
 
-// How the session ended, for the page of the view.
+// How the session ended, for the view's page.
 const char* end_name(Fault fault) { return fault == Fault::none ? "done" : FAULT_NAMES[static_cast<std::size_t>(fault)]; }
 
 // `stiffness`: N/m of the hand's gap.
@@ -121,7 +121,7 @@ std::string limits_json(const ViewLimits& limits, double stiffness) {
       {"start", {{"position", limits.start.position}, {"rotation", limits.start.rotation}, {"gap", limits.start.gap}}}});
 }
 
-// A session that is streamed to the port where its own hand is heard would hear itself.
+// A session streamed to the port on which its own hand is received would hear itself.
 void refuse_own_port(const LiveOptions& options, const HostPort& target) {
   const std::optional<HostPort> place = osc_place(options.device);
   if (!place || place->port != target.port) return;
@@ -161,9 +161,9 @@ class LiveRun {
   ExitCode run() {
     InterruptGuard interrupt;
     const PanicGuard panic(*gripper_, watch_.get());
-    interrupt.on_second_signal(end_by_signal);  // at once, and not before the force is gone
+    interrupt.on_second_signal(end_by_signal);  // at once, but only after the force is gone
     Board board(scene_);
-    open_view();  // first: a taken port leaves no recording behind
+    open_view();  // first, so that a taken port leaves no recording behind
     std::unique_ptr<RecordingWriter> writer;
     if (!options_.record.empty())
       writer = std::make_unique<RecordingWriter>(options_.record, recording_info(scene_, gripper_->limits(), options_), RECORD);
@@ -278,7 +278,7 @@ class LiveRun {
     }
   }
 
-  // Where vessels overlap only because they have no places: names the shipped scenes that have places.
+  // If vessels overlap only because they have no places: names the shipped scenes that have places.
   void check_places() const {
     try {
       const LiveScene placed(scene_);
@@ -296,7 +296,7 @@ class LiveRun {
     }
   }
 
-  // Whether this gripper goes with this scene. Nobody holds a recording, and nobody feels what a page holds.
+  // Whether this gripper works with this scene. Nobody holds a recording, and nobody feels the page.
   void check_gripper() {
     const GripperLimits& limits = gripper_->limits();
     if (is_replay_ || input_) return;
@@ -340,7 +340,7 @@ class LiveRun {
     if (view_) window_ = std::make_unique<BrowserWindow>(view_->address(), options_.json);
   }
 
-  // A loop that has a clock must not wait for the ring; one that has none must not run away from it.
+  // A loop with a clock must not wait for the ring; one without must not run ahead of it.
   TickSink sink() {
     if (!options_.no_clock) return [this](const Tick& tick) { return ring_->push(tick); };
     return [this](const Tick& tick) {
@@ -388,15 +388,15 @@ class LiveRun {
     for (std::string& line : gripper_->notes_for_report()) notes_.push_back(std::move(line));
   }
 
-  // By the haptic thread, which is watched, as it may not return from this either.
+  // Called by the haptic thread, which is watched, because this may not return either.
   void close_gripper() noexcept {
     if (watch_) watch_->enter(monotonic_now());
     gripper_->close();
     if (watch_) watch_->leave();
   }
 
-  // The haptic thread is lost in a call of the device, and whatever waits for it would never end: reports all, finishes the recording
-  // and ends the process without destructors.
+  // The haptic thread is lost in a device call, and anything that waits for it would never end. Reports everything, finishes the recording and ends
+  // the process without destructors.
   [[noreturn]] void give_up(InterruptGuard& interrupt, Recorder& recorder, Board& board) {
     interrupt.flag() = true;  // should the call return
     const std::optional<LoopReport> ending = loop_->ending();
@@ -416,7 +416,7 @@ class LiveRun {
     const bool is_recorded = finish_recording(recorder, report);
     if (view_) view_->end(end_name(report.fault));
     report_recording_error(recorder);
-    if (!ending) {  // what the loop knows is still its own
+    if (!ending) {  // the loop's data are still its own
       report.last = board.last();
       report.ticks = board.count();
     }
@@ -426,7 +426,7 @@ class LiveRun {
     _exit(static_cast<int>(ExitCode::failure));
   }
 
-  // The second thread is lost in a call of the device, and destructors would wait for it without end: reports all and ends the process.
+  // The second thread is lost in a device call, for which destructors would wait forever: reports everything and ends the process.
   [[noreturn]] void leave_watch(const LoopReport& report) {
     print_note(fault_words(report));
     print_note(
@@ -448,7 +448,7 @@ class LiveRun {
   void note(const std::string& line) {
     show_status("");
     print_note("live: " + line);
-    if (options_.json) notes_.push_back(line);  // the summary in words does not say it again
+    if (options_.json) notes_.push_back(line);  // the summary in words does not repeat it
   }
 
   void report_recording_error(Recorder& recorder) {
@@ -469,7 +469,7 @@ class LiveRun {
     if (const auto warning = gripper_->take_warning()) note(*warning);
   }
 
-  // `has_times`: in `report`; false where the loop still has them.
+  // `has_times`: in `report`; false if the loop still has them.
   void print_summary(const LoopReport& report, const Recorder& recorder, bool is_recorded, bool has_times) {
     LiveSummary summary{scene_, gripper_->limits(), report,     0, has_times && !options_.no_clock,
                         notes_, recorder.place(),   is_recorded};
@@ -484,7 +484,7 @@ class LiveRun {
   Scene scene_;
   std::vector<std::string> notes_;
   std::unique_ptr<LiveAdvice> advice_;  // outlives all that asks it
-  std::unique_ptr<ViewInput> input_;    // of the page where it is the gripper
+  std::unique_ptr<ViewInput> input_;    // of the page if it is the gripper
   std::unique_ptr<Gripper> gripper_;
   std::unique_ptr<CallWatch> watch_;
   std::unique_ptr<Session> session_;

@@ -35,7 +35,7 @@ LiveAdvice::LiveAdvice(const Scene& scene, const Options& options) : narrator_(s
   try {
     open(scene, options);
   } catch (const Error& error) {
-    // the remedy's usual words name an option that live does not have
+    // the remedy's usual words name an option that live lacks
     const char* remedy = error.remedy == Remedy::core      ? "; use --advise-on core"
                          : error.remedy == Remedy::or_core ? ", or use --advise-on core"
                                                            : nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The advice of `wholehand live --advise`: in a thread of its own where the session has a clock, else in step with it.
+// The advice of `wholehand live --advise`: on its own thread if the session has a clock, else in step with it.
 #pragma once
 
 #include <memory>
@@ -14,14 +14,14 @@
 
 namespace wholehand {
 
-// The default device: "vulkan" where there is a Vulkan device, else "core".
+// The default device: "vulkan" if there is a Vulkan device, else "core".
 std::string default_advice_device();
 
-// A line for each thing that begins: a vessel that the hand comes near to, a grasp. It comes once there are words.
+// Prints a line for each new situation (the hand comes near a vessel, a grasp), once its advice exists.
 class AdviceNarrator {
  public:
   explicit AdviceNarrator(const Scene& scene) : rate_(scene.live.rate), scene_(scene) {}
-  // Nothing: it is still the same vessel, free or held as before, or there is nothing to advise.
+  // Nothing: the same vessel, still free or still held, or nothing to advise.
   std::optional<std::string> narrate(const Advice& advice);
 
  private:
@@ -36,19 +36,19 @@ class LiveAdvice {
   struct Options {
     std::string on;  // as for open_backend
     bool has_clock = true;
-    bool is_followed = false;  // by the simulated user, who has shown()
+    bool is_followed = false;  // the simulated user follows it, and gets shown()
   };
   // Opens the device; `scene` must outlive it. Throws Error as Adviser does.
   LiveAdvice(const Scene& scene, const Options& options);
 
   ShownGripSource* shown();
-  // Ticks in their order: those of a session with a clock from the recorder's thread, each one of a session without in its loop.
+  // Takes ticks in order: with a clock from the recorder's thread, without one each tick in the loop.
   void look(std::span<const Tick> ticks);
   void step(const Tick& tick);
 
   // From any thread.
   std::shared_ptr<const Advice> newest() const;
-  std::vector<std::string> lines();  // what has begun since the last call
+  std::vector<std::string> lines();  // situations that began since the last call
   std::vector<std::string> take_warnings();
   AdviceTally tally() const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Messages of a running live session, from the recorder's thread to the main one.
+// Passes messages of a running live session from the recorder's thread to the main one.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ class Board {
  public:
   // `scene` must outlive it.
   explicit Board(const Scene& scene) : narrator_(scene) {}
-  // Ticks in their order, from one thread.
+  // Takes ticks in order, from one thread.
   void look(std::span<const Tick> ticks);
   // Prints what is new; `quiet`: only the status, and only on a terminal. Throws Error as print does.
   void show(bool quiet);
-  // Lines of the advice, and what the status says of it; null: nothing.
+  // Lines of the advice, and its part of the status; null: none.
   void advise(std::vector<std::string> lines, const Advice* advice);
-  // The newest tick, and how many there were.
+  // The newest tick, and the number of ticks so far.
   Tick last();
   std::int64_t count();
 

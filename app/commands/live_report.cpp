@@ -52,7 +52,7 @@ std::string Narrator::stamp(const Tick& tick) const {
   return fmt::format("{:8.2f} s  ", static_cast<double>(tick.number) / scene_.live.rate);
 }
 
-// Where each vessel is best taken for the task that is on: its shown guidance point.
+// The best place to take each vessel for the current task: its shown guidance point.
 std::string Narrator::guidance(const Tick& tick) const {
   std::string points;
   for (const VesselData& vessel : scene_.vessels) {

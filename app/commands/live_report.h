@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report of a live session: events while it runs, numbers when it is over.
+// The report of a live session: events during it, numbers after it.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,15 @@
 
 namespace wholehand {
 
-// Turns ticks, some of which may be left out, into lines for people.
+// Turns ticks, of which some may be missing, into lines for people.
 class Narrator {
  public:
   // `scene` must outlive it.
   explicit Narrator(const Scene& scene);
-  // Lines for what has happened since the tick before: the guidance points of a new task, grasped, put down, lost,
-  // delivered, poured; each with the time, s.
+  // Lines for what has happened since the previous tick: the guidance points of a new task, grasped, put down, lost, delivered, poured; each with the
+  // time, s.
   std::vector<std::string> look(const Tick& tick);
-  // One line for a status that is overwritten: state, tilt, force, amounts.
+  // One line for a status that is redrawn: state, tilt, force, amounts.
   std::string status(const Tick& tick) const;
 
  private:
@@ -32,29 +32,28 @@ class Narrator {
   Tick last_;
 };
 
-// The report at the end, as text or as JSON (times in s). `notes`: lines on what was not permitted.
+// The report at the end, as text or as JSON (times in s). `notes`: lines about missing permissions.
 struct LiveSummary {
   const Scene& scene;
   const GripperLimits& gripper;
   const LoopReport& loop;
-  double seconds = 0;  // of the session's own time
+  double seconds = 0;  // of session time
   bool has_clock = true;
   std::vector<std::string> notes;
   std::string recording;    // the file; empty: none
   bool is_recorded = true;  // all of it
   std::optional<AdviceTally> advice{};
-  bool is_by_signal = true;  // what was interrupted; otherwise a note says by what
+  bool is_by_signal = true;  // it was interrupted; a note names another cause
 };
 std::string live_text(const LiveSummary& summary);
 std::string live_json(const LiveSummary& summary);
 
-// "live: a fault ended the session after 2.004 s: read error (unplugged); zero force was written": the line for a session that ended by a fault, with
-// what was found,
-// what is allowed, and what became of the force. The same for a session that ended without one and left a force on the device.
+// "live: a fault ended the session after 2.004 s: read error (unplugged); zero force was written": the line for a session that a fault ended, with
+// the finding, the limit, and the force's fate. Also for a session without a fault that left a force on the device.
 std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live, double watchdog);
-// Whether the device did not take zero force at the end.
+// Whether the device did not accept zero force at the end.
 bool is_force_left(const LoopReport& report);
-// What became of the force at the end of a session; `watchdog`: the device's, s.
+// The force's fate at the end of a session; `watchdog`: the device's, s.
 std::string force_words(const LoopReport& report, double watchdog);
 
 }  // namespace wholehand

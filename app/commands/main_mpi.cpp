@@ -11,7 +11,7 @@
 
 int main(int argc, char** argv) {
   using namespace wholehand;
-  std::signal(SIGXFSZ, SIG_IGN);      // a file that grows past its limit is an error of the write, here of MPI's own files too
+  std::signal(SIGXFSZ, SIG_IGN);      // a file that grows past its limit makes the write fail, here also for MPI's own files
   InterruptGuard interrupt(SIGUSR1);  // from here on; a cluster's warning may come while ranks still find each other
   Team team(argc, argv);
   Program program;

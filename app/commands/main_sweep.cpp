@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand-sweep: the command `sweep` alone. ./wholehand sweep builds this program and no other, so that first grips are soon there.
+// wholehand-sweep: only the command `sweep`. ./wholehand sweep builds just this program, so that the first grips come soon.
 #include "app/commands/command_line.h"
 #include "app/commands/commands.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From `--device` to an open gripper.
+// Opens the gripper of `--device`.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace wholehand {
 
-constexpr double WATCHDOG = 20e-3;  // s without a word from the host after which a device lets go: two of the host's own patience
+constexpr double WATCHDOG = 20e-3;  // s of silence after which a device releases its force: two of the host's own patience
 
-// Where --device osc:[HOST:]PORT listens; nothing: it is another device. Throws Error (usage): no such port or host.
+// Where --device osc:[HOST:]PORT listens; nothing for another device. Throws Error (usage): no such port or host.
 std::optional<HostPort> osc_place(const std::string& device);
 
-// sim, view, hid[:PATH], usb[:VID:PID], omega[:N] or osc:[HOST:]PORT, as --device names them; a recording is opened by its own
-// (device/recordings/recording.h). `library`: of Force Dimension's SDK, empty: wherever it is found; `watchdog` in s; `view`: where the page's
-// controls go in, which must outlive the gripper; null: there is no page; `say` is given lines for the user, of a gripper that is waited for.
-// Throws Error: (usage) another name, with those that are allowed, or no page; (failure) what opening it throws.
+// Opens sim, view, hid[:PATH], usb[:VID:PID], omega[:N] or osc:[HOST:]PORT, as named by --device; a recording has its own function
+// (device/recordings/recording.h). `library`: of Force Dimension's SDK, empty: searched for; `watchdog` in s; `view`: input of the page's controls,
+// which must outlive the gripper; null: there is no page; `say` gets lines for the user while a gripper is awaited. Throws Error: (usage) another
+// name, listing the allowed ones, or no page; (failure) opening fails.
 std::unique_ptr<Gripper> open_gripper(
     const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library, double watchdog = WATCHDOG,
     ViewInput* view = nullptr, const std::function<void(const std::string&)>& say = [](const std::string&) {});

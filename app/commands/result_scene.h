@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene that a result file's own text describes.
+// Reads the scene from a result file's own text.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace wholehand {
 // Whether the file is NetCDF-4, as results are; neither scenes nor recordings are.
 bool is_result(const std::string& path);
 
-// The result's scene with its meshes, searched for beside the result, then from where the scene lay. `trouble`: why they are no longer
-// those of the sweep, "" where they are. Throws Error (usage) where the text is no scene.
+// The result's scene with its meshes, searched for beside the result, then at the scene's former place. `trouble`: why they are no longer the
+// sweep's, "" if they are. Throws Error (usage) if the text is not a scene.
 Scene scene_of_result(const SweepResult& result, std::string& mesh_error);
 
-// The same for what cannot do without the meshes: throws Error (usage) with the trouble.
+// The same for callers that need the meshes: throws Error (usage) with the trouble.
 Scene whole_scene_of_result(const SweepResult& result);
 
 }  // namespace wholehand

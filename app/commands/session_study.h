@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand session --study: what recordings of several people say together, beside the paper.
+// wholehand session --study: compares recordings of several people with the paper.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 namespace wholehand {
 
 struct RecordedPeople {
-  std::vector<std::string> recordings;  // files, one for each person; at least one
+  std::vector<std::string> recordings;  // files, one per person; at least one
   std::string folder;                   // for the files; empty: none are written
   std::uint64_t seed = 1;               // of the samples for the intervals
 };
 
-// Prints the table. Notes about recordings that are not whole go to standard error. Throws Error: (usage) a file is no recording or
-// has other vessels than the first, or the folder cannot be written over; (failure) a file cannot be written.
+// Prints the table. Notes about incomplete recordings go to standard error. Throws Error: (usage) a file is not a recording or has other vessels than
+// the first, or the folder cannot be written over; (failure) a file cannot be written.
 ExitCode study_recordings(const RecordedPeople& people);
 
 }  // namespace wholehand

@@ -10,12 +10,12 @@
 
 namespace wholehand {
 
-// An argument that is there and empty is a mistake, of an unset shell variable perhaps, and not the default.
+// Refuses an argument that is present but empty, perhaps from an unset shell variable, instead of taking the default.
 inline CLI::Validator not_empty() {
   return CLI::Validator([](const std::string& value) { return std::string(value.empty() ? "must not be empty" : ""); }, "");
 }
 
-// Without this check, an option that lacks its value takes the next option as its value. A file of such a name is ./--name.
+// Without this check, an option that lacks its value would take the next option as its value. Write ./--name for a file of such a name.
 inline CLI::Validator not_an_option() {
   return CLI::Validator(
       [](const std::string& value) {
@@ -27,8 +27,8 @@ inline CLI::Validator not_an_option() {
       "");
 }
 
-// Not a check: the values that completion offers for the option, with spaces between. After one that ends in ':' the user
-// goes on; "replay:.nc" stands for replay: and the name of a file with that ending.
+// Not a check: the values that completion offers for the option, separated by spaces. After one that ends in ':' the user continues; "replay:.nc"
+// stands for replay: and a file name with that ending.
 inline constexpr std::string_view OFFERED = "offered: ";
 inline CLI::Validator offered(const std::string& words) {
   return CLI::Validator([](const std::string&) { return std::string(); }, "", std::string(OFFERED) + words);

@@ -22,13 +22,13 @@ namespace wholehand {
 namespace {
 
 alignas(std::max_align_t) char failure_stack[64 * 1024];
-// printed until prepare_words() has found a limit of memory
+// printed until prepare_words() has found a memory limit
 char without_memory[200] = "out of memory; ask for less at once";
 char why[200] = "; please report it, unless memory ran out";  // after the signal, of an unknown failure
 std::atomic<bool> is_memory_short{false};
 std::atomic<pid_t> first_thread{0};  // that failed; 0: none
 static_assert(std::atomic<bool>::is_always_lock_free &&
-              std::atomic<pid_t>::is_always_lock_free);  // or a signal handler could not use them
+              std::atomic<pid_t>::is_always_lock_free);  // otherwise a signal handler could not use them
 std::terminate_handler terminate_before = nullptr;
 
 void add_text(char* line, std::size_t size, const char* text) { std::strncat(line, text, size - std::strlen(line) - 1); }
@@ -61,7 +61,7 @@ void on_failure(int signal) {
   throw std::bad_alloc();
 }
 
-// An uncaught exception ends in SIGABRT either way. The handler of before names it, but needs memory for that.
+// An uncaught exception ends in SIGABRT either way. The previous handler names it, but needs memory for that.
 void on_uncaught() {
   const std::type_info* type = abi::__cxa_current_exception_type();
   if (type && *type == typeid(std::bad_alloc)) is_memory_short = true;

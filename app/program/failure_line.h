@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A last line where the program itself fails, instead of an end by a signal without a word.
+// Prints a last line if the program itself fails, instead of a silent end by a signal.
 #pragma once
 
 namespace wholehand {
 
-// Call first, even before the libraries' own initialization. From then on a failure that comes as a signal (SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL,
-// SIGTRAP, SIGSYS), on any thread that does not block it, and an
-// exception that nobody catches write one line to standard error and end the process with exit code 3. Libraries that do not look
-// whether there was memory fail like that: the line says so where memory is known to be short. All that this needs is made ready here. Not
-// to be called under a sanitizer, which has handlers of its own. PanicGuard takes these signals over while it lives.
+// Call first, even before the libraries' own initialization. From then on, a failure signal (SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTRAP,
+// SIGSYS) on any thread that does not block it, and an uncaught exception, write one line to standard error and end the process with exit code 3.
+// Libraries that do not check for memory fail like that, so the line mentions memory if it is known to be short. Everything needed is prepared here.
+// Do not call under a sanitizer, which has its own handlers. A PanicGuard takes these signals over while it lives.
 void prepare_failure_line();
 
 }  // namespace wholehand

@@ -8,8 +8,8 @@
 namespace wholehand {
 namespace {
 
-// Where it cannot make its disk cache, Mesa complains on stderr; then it had better not try. All that is lost is time: kernels are
-// compiled again in the next run.
+// If Mesa cannot make its disk cache it complains on stderr, so the cache is then switched off. This only costs time: the next run compiles the
+// kernels again.
 void silence_missing_cache() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
@@ -20,9 +20,9 @@ void silence_missing_cache() {
   if (error) setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
 }
 
-// Lavapipe computes on vectors of 256 bits by default, also where the CPU has 512. Measured with 512: 10 to 15 % less
-// CPU time where products dominate, the same where square roots and divisions do. (To compare, switch Mesa's disk cache off with
-// MESA_SHADER_CACHE_DISABLE=true: it hands out what was compiled for another width.)
+// Lavapipe computes on vectors of 256 bits by default, even if the CPU has 512. Measured with 512: 10 to 15 % less CPU time where products dominate,
+// the same where square roots and divisions do. (To compare, disable Mesa's disk cache with MESA_SHADER_CACHE_DISABLE=true, because it returns code
+// compiled for another width.)
 void widen_vectors() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of the module wholehand._core, a file each. What users call is app/python/wholehand/*.py, which has the documentation.
+// The parts of the module wholehand._core, one file each. Users call app/python/wholehand/*.py, which has the documentation.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -11,7 +11,7 @@
 namespace wholehand {
 namespace {
 
-// What a scene's [grips] may say, in SI. An angle of 360 degrees may be rounded up on its way through radians.
+// What a scene's [grips] may contain, in SI. An angle of 360 degrees may be rounded up when converted to radians.
 struct Range {
   double low, high;
   const char* unit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grips as NumPy has them: six columns of doubles, each with a stride of its own, read where they lie.
+// Grips as NumPy arrays: six columns of doubles, each with its own stride, read in place.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -20,11 +20,10 @@ extern const std::array<const char*, GRIP_COLUMNS> GRIP_COLUMN_NAMES;  // height
 using GripNumbers = std::array<double, GRIP_COLUMNS>;
 GripNumbers grip_columns(const GripInput& grip);
 
-using Doubles = pybind11::array_t<double, 0>;  // strided as it is; nothing is converted
+using Doubles = pybind11::array_t<double, 0>;  // strided as given; nothing is converted
 using GripArrays = std::array<Doubles, GRIP_COLUMNS>;
 
-// The columns without the interpreter: pointers and strides in bytes, which need not suit a double's alignment. The arrays must
-// outlive it.
+// The columns without the interpreter: pointers and strides in bytes, which need not fit a double's alignment. The arrays must outlive it.
 class GripColumns {
  public:
   // Throws Error (usage) unless all have one dimension and the same length.
@@ -32,8 +31,8 @@ class GripColumns {
 
   std::size_t count() const { return count_; }
   GripInput grip(std::size_t i) const;
-  // Throws Error (usage) with the first number that no grip may have, its column, its place and what is allowed. Ends early on `stop`,
-  // which another thread may set.
+  // Throws Error (usage) for the first disallowed number, with its column, its row and what is allowed. Ends early on `stop`, which another thread
+  // may set.
   void check(const std::atomic<bool>& stop) const;
   // The rows as a request's grips: grip i of the plan is row i.
   GripSource source() const;
@@ -49,7 +48,7 @@ class GripColumns {
   std::size_t count_ = 0;
 };
 
-// Throws Error (usage) where a grip has a number that is not allowed. `name` stands for it in the line: "grip 17", "the grip".
+// Throws Error (usage) if a grip has a disallowed number. `name` stands for it in the line: "grip 17", "the grip".
 void check_grip(const GripInput& grip, const char* name);
 
 }  // namespace wholehand

@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::chrono::milliseconds SIGNALS_EVERY{50};  // between two checks for Ctrl-C
 
-// Where the values of one variable go: an array of (grips, values of a grip), C-contiguous.
+// The destination of one variable's values: an array of (grips, values of a grip), C-contiguous.
 struct Output {
   const Variable* variable = nullptr;
   int plane = 0;           // first
@@ -90,7 +90,7 @@ void put_reals(const Output& output, const PlaneChunk& chunk, const Number* real
   }
 }
 
-// The core in float hands out doubles, as what it computed fits both.
+// The core in float returns doubles that fit both.
 void put_rounded(const Output& output, const PlaneChunk& chunk) {
   auto* to = static_cast<float*>(output.data) + chunk.first * output.values;
   for (std::size_t v = 0; v < output.values; ++v)
@@ -121,9 +121,9 @@ void put(const Output& output, const PlaneChunk& chunk, const FieldSet& fields, 
   return is_mask ? put_words<std::uint32_t>(output, chunk, status) : put_words<std::int32_t>(output, chunk, status);
 }
 
-// Does `work` in a thread of its own, without the interpreter's lock, while this one looks now and then whether Python's signal handlers
-// want to raise: only the main thread may, however long a piece of the work takes. `work` ends soon after `stop`. With the lock; what a
-// handler raised, or the work threw, goes on.
+// Runs `work` on its own thread, without the interpreter's lock, while this thread checks regularly whether Python's signal handlers want to raise:
+// only the main thread may, however long a piece of the work takes. `work` ends soon after `stop`. Call with the lock; rethrows what a handler raised
+// or the work threw.
 template <class Work>
 void with_signals(std::atomic<bool>& stop, const Work& work) {
   std::exception_ptr error;
@@ -167,7 +167,7 @@ void run_batch(Batch& batch, std::size_t vessel, const GripColumns& grips, const
     throw failure_error(batch.backend->info().device + ": fewer grips came back than were asked for");
 }
 
-// Resolves "auto" for so many grips. A process forked from one with an open device gets the core.
+// Resolves "auto" for this many grips. A process forked from one with an open device gets the core.
 std::string resolved_backend(const SceneHandle& handle, std::uint64_t grips,
                              const std::optional<std::vector<std::string>>& variables, const std::string& on,
                              const std::optional<std::string>& precision, int threads) {
@@ -205,7 +205,7 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
       batch = handle.batch(spec);
     } catch (const Error&) {
       if (asked_on != ON_AUTO || on == "core") throw;
-      spec.on = on = "core";  // an error that is not the device's is thrown again
+      spec.on = on = "core";  // an error that is not the device's is rethrown
       batch = handle.batch(spec);
     }
     scene = &handle.whole(on);
@@ -217,7 +217,7 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
   return py::make_tuple(values, on);
 }
 
-// In blocks on all threads; most lists are full within the first.
+// In blocks on all threads; most lists are full after the first.
 std::vector<Candidate> choose_different(const Evaluator& core, std::size_t vessel, const GripColumns& grips, std::size_t count,
                                         double apart, const std::atomic<bool>& stop) {
   constexpr std::size_t MOST_AT_ONCE = 4096;
@@ -232,7 +232,7 @@ std::vector<Candidate> choose_different(const Evaluator& core, std::size_t vesse
   return chosen.chosen();
 }
 
-// The places of the first `count` grips, in the order given, that differ from every one before (sweeps/lists/different_grips.h).
+// The indices of the first `count` grips, in the given order, that differ from every earlier one (sweeps/lists/different_grips.h).
 std::vector<std::size_t> different_grips(SceneHandle& handle, std::size_t vessel, const GripArrays& arrays, std::size_t count,
                                          double apart) {
   const GripColumns grips(arrays);
@@ -247,7 +247,7 @@ std::vector<std::size_t> different_grips(SceneHandle& handle, std::size_t vessel
   return places;
 }
 
-// The places of the first `best` grips, in their order by robust scores, and these scores: of candidates, the best by score first.
+// The indices of the first `best` grips, ordered by robust scores, and these scores, chosen from the best candidates by score.
 py::tuple rank_by_robust_scores(SceneHandle& handle, std::size_t vessel, const GripArrays& arrays, std::size_t best) {
   const GripColumns grips(arrays);
   check_vessel(handle.described(), vessel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One grip with everything that `wholehand grip` knows of it.
+// Everything that `wholehand grip` knows of one grip.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -31,7 +31,7 @@ namespace {
 
 GripInput input_of(const GripNumbers& numbers) { return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5]}; }
 
-// As the program reads an option's text, so that what is refused is refused in its words.
+// Parsed like an option's text, so that refusals use the same words.
 double quantity(double value, const char* option, const Quantity& range) {
   return parse_quantity(fmt::format("{}", value), option, range);
 }
@@ -56,7 +56,7 @@ GripNumbers grip_between(const std::array<double, 3>& thumb, const std::array<do
   return grip_columns(grip_through(point(thumb, "--thumb-mm"), point(index, "--index-mm"), turn, scale));
 }
 
-// What is asked beside the grip. Fills are fractions; volumes in mL replace them.
+// The request besides the grip. Fills are fractions; volumes in mL replace them.
 struct StateSpec {
   std::optional<std::vector<double>> fills, volumes, tilts;
 };
@@ -68,7 +68,7 @@ StateAxes axes_of(const StateSpec& spec, const Scene& scene, std::size_t vessel)
     for (const double tilt : *spec.tilts) axes.tilts.push_back(quantity(tilt, "tilts_deg", ranges::TILT));
   }
   if (!spec.fills && !spec.volumes) return axes;
-  // Python's own names, which no rule makes of the options'
+  // Python's own names, which do not follow the options' by a rule
   const char* option = spec.volumes ? "fills_ml" : "fills";
   if (spec.fills && spec.volumes) throw usage_error("fills and fills_ml are both given; allowed: one of the two");
   if (!scene.liquid)
@@ -113,7 +113,7 @@ class GripHandle {
   void write_glb(const std::string& path) const { write(path, "--glb", GRIP_GLB_MARK, "glTF binary of wholehand's", glb()); }
 
  private:
-  // Lattices are as wide as this hand needs.
+  // Lattices extend as far as this hand needs.
   void read_meshes(const GripInput& grip, const std::string& on) {
     if (!has_meshes(scene_)) return;
     Scene asked = scene_;

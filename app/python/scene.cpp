@@ -129,7 +129,7 @@ bool is_forked_from_device() { return opened_by != 0 && opened_by != getpid(); }
 
 void prepare_device(const std::string& on) {
   if (on == "core") return;
-  // A driver's threads and its connection to the device stay behind in a fork; to use them there would wait for ever.
+  // A driver's threads and its connection to the device stay behind in a fork; using them there would wait forever.
   const pid_t here = getpid();
   pid_t nobody = 0;
   if (!opened_by.compare_exchange_strong(nobody, here) && nobody != here)

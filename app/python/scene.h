@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene as Python holds it: what its text says, and what was made of it so far, kept for the next call.
+// A scene as Python holds it: its parsed text, and what was computed from it, kept for the next call.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,14 @@
 
 namespace wholehand {
 
-// What evaluates some variables of many grips of a scene. One request at a time.
+// Evaluates some variables of many grips of a scene. One request at a time.
 struct Batch {
   std::vector<const Variable*> variables;  // in the order asked
   std::unique_ptr<Backend> backend;
   std::timed_mutex in_use;
 };
 
-// What a batch computes, and where. `variables` absent: those that a sweep of the scene keeps.
+// What a batch computes, and where. `variables` absent: a sweep's default ones.
 struct BatchSpec {
   std::optional<std::vector<std::string>> variables;
   std::string on = "core";
@@ -34,22 +34,22 @@ struct BatchSpec {
   bool operator==(const BatchSpec&) const = default;
 };
 
-// Every method may be called from any thread, without the interpreter's lock.
+// Any thread may call every method, without the interpreter's lock.
 class SceneHandle {
  public:
   explicit SceneHandle(Scene scene) : described_(std::move(scene)) {}
 
-  // As it was read, meshes unread.
+  // As parsed, with meshes unread.
   const Scene& described() const { return described_; }
-  // With its meshes, which the first call for this device reads. The reference holds as long as the object. Throws Error.
+  // With its meshes, which the first call for this device reads. The reference lives as long as the object. Throws Error.
   const Scene& whole(const std::string& on = "core");
   // The reference evaluator of the whole scene.
   std::shared_ptr<const Evaluator> core();
   // Keeps the backends of the last few specs.
   std::shared_ptr<Batch> batch(const BatchSpec& spec);
-  // What the program would print about the scene on standard error, a line each.
+  // The program's standard-error notes about the scene, one line each.
   std::vector<std::string> notes();
-  // The same of float's domain, with the remedy; empty in double.
+  // The same for float's domain, with the remedy; empty in double.
   std::vector<std::string> float_notes(Precision precision);
 
  private:
@@ -66,21 +66,20 @@ class SceneHandle {
   std::list<std::pair<BatchSpec, std::shared_ptr<Batch>>> batches_;  // the latest first
 };
 
-// The variables of these names, in their order. `place` begins the line where one is unknown or the scene lacks what it needs:
-// throws Error (usage).
+// The variables of these names, in order. Throws Error (usage) that begins with `place` if one is unknown or the scene lacks what it needs.
 std::vector<const Variable*> named_variables(const Scene& scene, const std::vector<std::string>& names, const std::string& place);
 
-// Before a device is opened or used: sets what its driver reads from the environment. Call with the interpreter's lock, which
-// guards the environment. Throws Error (failure) in a process that was forked from one which had a device.
+// Call before opening or using a device: sets the variables that its driver reads from the environment. Hold the interpreter's lock, which guards the
+// environment. Throws Error (failure) in a process that was forked from one with a device.
 void prepare_device(const std::string& on);
 
-// Whether a process from which this one was forked has called prepare_device for a device.
+// Whether an ancestor of this forked process has called prepare_device for a device.
 bool is_forked_from_device();
 
-// As the program's option --precision: "float" or "double"; absent: double on the core, float on a device.
+// Like the program's option --precision: "float" or "double"; absent: double on the core, float on a device.
 Precision precision_of(const std::optional<std::string>& text, const std::string& on);
 
-// As the program's option --threads; 0: all.
+// Like the program's option --threads; 0: all.
 int checked_threads(int threads);
 
 }  // namespace wholehand

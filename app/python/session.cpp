@@ -26,8 +26,8 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// Real numbers of any kind as doubles. No text, truths or complex numbers, which NumPy would convert, and no masked arrays, whose
-// masks it would drop.
+// Real numbers of any kind as doubles. Refuses texts, truth values and complex numbers, which NumPy would convert, and masked arrays, whose masks it
+// would drop.
 Numbers finite_doubles(const py::object& values, const char* name) {
   const py::array array = py::array::ensure(values);
   if (!array) throw usage_error(fmt::format("session: the {} is no array of numbers", name));
@@ -50,14 +50,14 @@ Numbers points_of(const std::array<Triple, N>& points) {
   return Numbers({static_cast<py::ssize_t>(N), py::ssize_t{3}}, points[0].data());
 }
 
-// What a step left behind, whole: the session may have gone on.
+// A complete copy of a step's results, since the session may have continued.
 struct Step {
   std::shared_ptr<const Session> session;
   Tick tick;
   VesselPoses poses;
 
   HandView hand() const { return hand_view(session->live(), tick, poses); }
-  // What the whole hand gives; NaN where nothing is held.
+  // The whole hand's results; NaN if nothing is held.
   double effort() const {
     const std::optional<HandHold> hold = hand().hold;
     return hold ? hold->effort : Tick::NONE;
@@ -72,7 +72,7 @@ struct Step {
   }
 };
 
-// The gaps between which the hand itself opens and closes: what a gripper has that says nothing of its own.
+// The gaps between which the hand itself opens and closes: the default for a gripper that gives none.
 std::array<double, 2> gap_range(const Scene& scene, const std::optional<std::array<double, 2>>& given) {
   if (given) return *given;
   if (scene.device.has_gap) return scene.device.gap;
@@ -118,7 +118,7 @@ class SessionHandle {
   double period() const { return is_closed() ? 0 : 1 / session_->live().scene.live.rate; }
 
  private:
-  // A session belongs to the thread of its first step: two that took turns would each take the other's hand for its own.
+  // A session belongs to the thread of its first step: two threads in turns would each take the other's hand for its own.
   void enter() {
     if (is_closed()) throw usage_error("session: it is closed");
     const std::thread::id here = std::this_thread::get_id();

@@ -43,8 +43,8 @@ SweepOptions options_of(const SweepSpec& spec, std::vector<std::string>& notes) 
   return options;
 }
 
-// Answers whether it is whole, the number of a signal that came meanwhile (0: none), and the notes. One at a time in a process: the
-// caller sees to that.
+// Returns whether it is complete, the number of a signal that came meanwhile (0: none), and the notes. Only one at a time in a process; the caller
+// ensures that.
 py::tuple sweep(const SceneHandle& handle, const std::string& output, const std::string& on, std::optional<std::string> precision,
                 std::optional<int> best, std::optional<std::vector<std::string>> keep, int threads, bool refine, bool resume) {
   prepare_device(on);
@@ -61,7 +61,7 @@ py::tuple sweep(const SceneHandle& handle, const std::string& output, const std:
     }
     code = run_sweep(scene, options_of(spec, notes));
   }
-  // one that came in the ending left the sweep whole, and is Python's all the same
+  // a signal during the ending left the sweep complete, but still belongs to Python
   return py::make_tuple(code != ExitCode::interrupted, InterruptGuard::signal_number(), notes);
 }
 

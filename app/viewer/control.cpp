@@ -45,7 +45,7 @@ std::int64_t whole_of(const json& value, const char* key, std::int64_t most) {
   return number;
 }
 
-// The nearest one but for second order: the first column stays in its direction, since the fingers close along it.
+// The nearest one up to second order: the first column keeps its direction, because the fingers close along it.
 Rotation rotation_of(const Rotation& given) {
   Mat3 m = to_mat3(given);
   const Mat3 off = glm::transpose(m) * m - Mat3(1);

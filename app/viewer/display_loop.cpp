@@ -100,7 +100,7 @@ bool DisplayLoop::is_watched() const {
   return std::any_of(displays_.begin(), displays_.end(), [](Display* display) { return display->is_watched(); });
 }
 
-// Over the last moments: the session's rate, less the share of periods that have no tick.
+// Over the last moments: the session's rate, minus the share of periods without a tick.
 double DisplayLoop::measured_rate(std::int64_t ticks, std::int64_t number) {
   const std::size_t at = moments_ % counts_.size();
   const Count before = moments_ < counts_.size() ? counts_[0] : counts_[at];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a live session shows, at display rate: from the ticks that the recorder's thread hands on to whoever displays them. The haptic thread
-// knows nothing of it.
+// Shows a live session at display rate, from the ticks that the recorder's thread passes on. The haptic thread does not know it.
 #pragma once
 
 #include <array>
@@ -27,7 +26,7 @@ struct DisplayMoment {
   const VesselPoses& poses;
   const HandView& hand;
   const ViewFrame::Timing& timing;
-  const Advice* advice = nullptr;  // null: nobody was asked; vessel -1: there is none now
+  const Advice* advice = nullptr;  // null: advice is off; vessel -1: there is none now
 };
 
 // The newest advice, or none; from the display loop's thread.
@@ -37,14 +36,14 @@ using AdviceSource = std::function<std::shared_ptr<const Advice>()>;
 class Display {
  public:
   virtual ~Display() = default;
-  // Whether anybody looks: without that no hand is posed. From any thread.
+  // Whether anybody watches: otherwise no hand is posed. From any thread.
   virtual bool is_watched() { return true; }
   // Must not wait for long, nor throw.
   virtual void show(const DisplayMoment& moment) noexcept = 0;
 };
 
-// Shows the newest tick on every display, DISPLAY_RATE times a second at most: best polled just so often. Ticks between are not shown,
-// none twice, the last one always.
+// Shows the newest tick on every display, at most DISPLAY_RATE times a second; poll at that rate. It skips ticks in between, repeats none, and always
+// shows the last one.
 class DisplayLoop {
  public:
   // `live` and the displays must outlive it. `advice` may be empty.
@@ -54,9 +53,9 @@ class DisplayLoop {
   DisplayLoop(const DisplayLoop&) = delete;
   DisplayLoop& operator=(const DisplayLoop&) = delete;
 
-  // Ticks in their order, all of them, from one thread. Waits for nothing but what is copied.
+  // Takes all ticks in order, from one thread. Only copies; never waits.
   void look(std::span<const Tick> ticks);
-  // Shows the last tick that came, and ends. Once; then nothing is shown any more.
+  // Shows the last tick, and ends. Call it once; nothing is shown afterwards.
   void stop();
 
  private:
@@ -81,14 +80,14 @@ class DisplayLoop {
   std::int64_t ticks_ = 0;
   ViewFrame::Timing timing_;
 
-  // Belongs to the loop's own thread: ticks counted at the last moments, a second of them, for the rate.
+  // Only for the loop's own thread: tick counts of the last second, for the rate.
   struct Count {
     std::int64_t ticks = 0, number = 0;
   };
   std::array<Count, static_cast<std::size_t>(DISPLAY_RATE)> counts_{};
   std::size_t moments_ = 0;
 
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // declared last: it uses all of the above
 };
 
 }  // namespace wholehand

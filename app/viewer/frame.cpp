@@ -14,7 +14,7 @@
 namespace wholehand {
 namespace {
 
-// Writes JSON as it comes: a frame is made sixty times a second, and a tree of values would cost more than what is in it.
+// Writes JSON directly: a frame is made sixty times a second, and a tree of values would cost more than its contents.
 class Writer {
  public:
   Writer() { out_.reserve(4096); }
@@ -39,7 +39,7 @@ class Writer {
     }
     text("]");
   }
-  // `name` comes with its quotes, its colon and the comma before it.
+  // `name` includes its quotes, its colon and the preceding comma.
   void number(std::string_view name, double value) {
     text(name);
     number(value);
@@ -120,7 +120,7 @@ void write_holding(Writer& out, const HandHold& hold) {
   out.text("]}");
 }
 
-// Words are ours: nothing in them needs an escape.
+// The words are ours and need no escape.
 void write_advice(Writer& out, const FrameAdvice& advice) {
   out.text(",\"advice\":{\"vessel\":");
   out.whole(advice.vessel);

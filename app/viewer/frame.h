@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One moment as the viewer sees it, and as the JSON that the page takes; docs/view.md names the fields.
+// One moment as the viewer shows it, and as the JSON for the page; docs/view.md names the fields.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace wholehand {
 
-// The hand of an advised grip, where it would be now: a place and a turn for each node, world frame of the scene.
+// The hand of an advised grip, where it would be now: position and rotation of each node, world frame of the scene.
 struct GhostNode {
   Triple place{};
   Quaternion turn{0, 0, 0, 1};
@@ -25,19 +25,19 @@ struct GhostHand {
   std::array<GhostNode, JOINT_COUNT> joints;
 };
 
-// The hand of the best grip, on its vessel at the vessel's present pose. Absent where no grip is better than the present one.
+// The hand of the best grip, on its vessel at the vessel's present pose. Absent if no grip is better than the present one.
 std::optional<GhostHand> ghost_of(const Scene& scene, const Advice& advice, const VesselPoses& poses);
 
 // What is advised, world frame.
 struct FrameAdvice {
   int vessel = -1;
   std::string words;
-  double from = 0, to = 0;  // efforts of the present grip and of the best one; NaN: it is not possible; infinite: nothing holds it
+  double from = 0, to = 0;  // efforts of the present grip and of the best one; NaN: not possible; infinite: nothing holds it
   std::optional<GhostHand> ghost;
 };
 FrameAdvice frame_advice(const Scene& scene, const Advice& advice, const VesselPoses& poses);
 
-// SI; world frame but for what a vessel has in its own.
+// SI; world frame, except what a vessel has in its own.
 struct ViewFrame {
   struct Vessel {
     bool is_shown = true;  // false: the page does not draw it
@@ -60,22 +60,21 @@ struct ViewFrame {
   double closure = 0, gap = 0, tilt = 0;
   std::vector<Vessel> vessels;
   std::optional<PouringStream> stream;
-  // N; N m. `feedback` is what the method asks for, `written` what the gripper got: none where there is no gripper. `hold` is that
-  // of the whole hand where `hand.hold` has it, else of two tips. JSON has null for what is infinite or absent, and
-  // marks an infinite hold force.
+  // N; N m. `feedback` is what the method wants, `written` what the gripper got: absent without a gripper. `hold` is the whole hand's if `hand.hold`
+  // has it, else two tips'. JSON has null for infinite or absent values, and marks an infinite hold force.
   double feedback = 0, written = Tick::NONE, base = 0, normal = 0, opening = 0, user = 0, hold = Tick::NONE, weight = 0, torque = 0;
   std::vector<double> arrived;  // of each amount that the task wants, m3
   double spilt = 0, target_volume = 0;
-  std::optional<FrameAdvice> advice;  // absent: nobody was asked, or no vessel is near
+  std::optional<FrameAdvice> advice;  // absent: advice is off, or no vessel is near
   int guidance = -1;                  // modulo each vessel's count
   bool is_done = false;
   Timing timing;
 };
 
-// One JSON object in one line. Numbers have the digits of a float: tenths of a micrometer in a hand.
+// One JSON object in one line. Numbers have a float's digits: tenths of a micrometer in a hand.
 std::string frame_json(const ViewFrame& frame);
 
-// Makes frames of a session's ticks. The liquid's surface of a vessel that rests is kept from one frame to the next.
+// Makes frames of a session's ticks. Keeps the liquid's surface of a resting vessel between frames.
 class FrameMaker {
  public:
   // `live` must outlive it.
@@ -85,7 +84,7 @@ class FrameMaker {
  private:
   struct Rest {
     double volume = 0;
-    Rotation rotation{};  // no rotation at all: not known yet
+    Rotation rotation{};  // not a rotation: not known yet
     std::optional<LiquidSurface> surface;
   };
   const LiveScene& live_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The newest frame of a live view, from the one who makes them to all who watch.
+// Passes the newest frame of a live view from its maker to all viewers.
 #pragma once
 
 #include <chrono>
@@ -12,19 +12,19 @@
 
 namespace wholehand {
 
-// Frames are made once for all viewers. Who is slow gets the newest when he comes again, and nobody waits for him. From any thread.
+// Each frame is made once for all viewers. A slow viewer gets the newest one on return, and nobody waits for it. From any thread.
 class FrameHub {
  public:
   explicit FrameHub(int most_viewers) : most_viewers_(most_viewers) {}
 
-  // Number of the newest frame at that moment (0: none yet): who joins waits for the one after it, and misses none that is published from
-  // then on. Nothing: there are as many viewers as there may be. Who joined leaves.
+  // Joins as a viewer. Returns the newest frame's number at that moment (0: none yet); a viewer who waits for the next one misses nothing published
+  // later. Nothing: there are as many viewers as allowed. Every viewer who joined must leave.
   std::optional<std::uint64_t> join();
   void leave();
   int viewers() const;
 
   void publish(std::string frame);
-  // No more frames; the first reason stays.
+  // Ends the frames; the first reason stays.
   void close(const std::string& reason);
 
   struct Update {
@@ -33,7 +33,7 @@ class FrameHub {
     bool is_over = false;                      // and `frame` is the last
     std::string reason;
   };
-  // What is newer than the frame of that number (0: any), waited for so long at most.
+  // A frame newer than that number (0: any), waiting at most so long.
   Update wait(std::uint64_t seen, std::chrono::milliseconds most);
 
  private:

@@ -30,7 +30,7 @@ using core_f64::Mat3;
 using core_f64::Vec3;
 using Json = nlohmann::ordered_json;
 
-// A vessel of the scene, what is needed of it beyond the evaluator: its cavity, and points that show how low it reaches.
+// A vessel of the scene, and data beyond the evaluator: its cavity, and points that show how low it reaches.
 struct ViewedVessel {
   core_f64::Vessel vessel;
   std::vector<std::array<double, 2>> rings;  // (r, y) of its profile, m; arcs by their chords' ends
@@ -163,7 +163,7 @@ class GripsView::Impl {
     return glm::length(to) < 0.5 ? Vec3(1, 0, 0) : to;
   }
 
-  // About the horizontal axis that turns up to where it pours.
+  // About the horizontal axis that turns up to the pouring direction.
   Mat3 turn_of(const Seen& seen, double tilt) const {
     const Vec3 to = pour_of(seen.wanted.grip), up(0, 1, 0), across = glm::cross(up, to);
     const double c = std::cos(tilt), s = std::sin(tilt);
@@ -172,8 +172,7 @@ class GripsView::Impl {
     return turned * glm::transpose(frame);
   }
 
-  // About the middle of the tips, and up so far that no glass is under the table on which it stands upright. The hand may be: that
-  // is seen.
+  // About the middle of the tips, and raised so that no glass is below the table on which it stands upright. The hand may be below it, visibly.
   Vec3 place_of(const Seen& seen, const Mat3& turn) const {
     const std::size_t v = seen.wanted.vessel;
     const Vec3 pivot = to_vec3(seen.result.midpoint), home = to_vec3(scene_.vessels[v].place);

@@ -14,32 +14,32 @@
 
 namespace wholehand {
 
-// Where a sweep found a better grip beside one that it swept.
+// A better grip that a sweep found beside one of its own.
 struct RefinedView {
   GripInput grip;
   double score = 0;
 };
 
-// What the grip scores at the random deviations of a sweep.
+// The grip's scores at the random deviations of a sweep.
 struct RobustView {
   double mean = 0, low = 0;  // low: the 10th percentile
 };
 
-// A grip to be seen, what it is called there, and the score of the list that it is from; without one the core's is shown.
+// A grip to show, its name, and the score of its list; without one the core's is shown.
 struct ViewedGrip {
   std::size_t vessel = 0;
   GripInput grip;
   std::string label;
   std::optional<double> score = std::nullopt;
-  std::optional<RefinedView> refined = std::nullopt;  // beside it in words, not in the picture
+  std::optional<RefinedView> refined = std::nullopt;  // shown in words, not in the picture
   std::optional<RobustView> robust = std::nullopt;
 };
 
 // The grips of a scene with the core's numbers. From any thread.
 class GripsView {
  public:
-  // Evaluates them all; those that the core finds not feasible are left out, with a line in `notes` each. Throws Error: (usage) what
-  // make_core_evaluator throws, or that none is left.
+  // Evaluates them all. Leaves out those that the core finds infeasible, with a line in `notes` each. Throws Error: (usage) what make_core_evaluator
+  // throws, or that none is left.
   GripsView(const Scene& scene, const std::vector<ViewedGrip>& grips, std::vector<std::string>& notes);
   ~GripsView();
   GripsView(const GripsView&) = delete;
@@ -48,11 +48,11 @@ class GripsView {
   std::size_t size() const;
   const GripResult& result(std::size_t grip) const;  // vessel frame, as `grip --json` has it
 
-  // A grip at a fill (of the capacity; 0 in a scene without liquid) and a tilt, rad. The vessel stands where the scene has it, is turned about
-  // the middle of the tips towards where it pours, and lifted so that neither it nor the hand is under the table.
+  // A grip at a fill (of the capacity; 0 in a scene without liquid) and a tilt, rad. The vessel starts at its place in the scene, turns about the
+  // middle of the tips in its pouring direction, and is lifted so that neither it nor the hand is below the table.
   ViewFrame frame(std::size_t grip, double fill, double tilt) const;
-  // scene.json and state of it, for a server; it must be outlived by this. `asked`: the fills and tilts that the page begins with and goes up
-  // to; the scene's own if nobody says otherwise. Forces and scores are those of the scene whatever is asked.
+  // scene.json and state of it, for a server, which must not outlive this. `asked`: the page's initial and largest fills and tilts; by default the
+  // scene's own. Forces and scores are always the scene's.
   ViewContent content(const std::string& title, const StateAxes& asked) const;
 
  private:

@@ -37,7 +37,7 @@ void for_each_header(std::string& buffer, std::size_t from, std::size_t to, Look
   }
 }
 
-// None of HTTP's is in a header; httplib ends a value at a NUL.
+// No HTTP header has one; httplib ends a value at a NUL.
 bool is_control(char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; }
 
 bool is_header(std::string_view name, std::string_view wanted) {
@@ -87,9 +87,9 @@ HttpConnection::Head HttpConnection::look_at_head(std::size_t size) {
         std::any_of(name.begin(), name.end(), is_control) || std::any_of(value.begin(), value.end(), is_control))
       head = Head::not_allowed;
     if (is_header(name, "range") || is_header(name, "accept-encoding")) buffer_[at] = 'X';
-    // httplib decodes what it reads: a host is compared as it was sent, and none of ours has such a letter
+    // httplib decodes what it reads; a host is compared as sent, and none of ours has such a letter
     if (is_header(name, "host") || is_header(name, "origin")) {
-      if (value.find_first_not_of(" \t") == value.npos) head = Head::not_allowed;  // httplib passes it by, as if it were not there
+      if (value.find_first_not_of(" \t") == value.npos) head = Head::not_allowed;  // httplib ignores it, as if it were not there
       std::replace(buffer_.begin() + (value.data() - buffer_.data()),
                    buffer_.begin() + (value.data() + value.size() - buffer_.data()), '%', '!');
     }
@@ -104,7 +104,7 @@ HttpConnection::Head HttpConnection::look_at_head(std::size_t size) {
   return lengths > 1 ? Head::not_allowed : head;
 }
 
-// More than 0: so many bytes; 0: the other side sends no more; less: too late, or broken.
+// Above 0: that many bytes; 0: the other side sends no more; below: too late, or broken.
 ssize_t HttpConnection::receive(char* data, std::size_t size, Clock::time_point until) {
   for (;;) {
     const ssize_t got = recv(socket_, data, size, MSG_DONTWAIT);
@@ -152,7 +152,7 @@ ssize_t HttpConnection::write(const char* data, std::size_t size) {
   return static_cast<ssize_t>(sent);
 }
 
-// It listens on one address of this machine: nobody asks from where.
+// The server listens on one address of this machine, so the peer's address does not matter.
 void HttpConnection::get_remote_ip_and_port(std::string& ip, int& port) const {
   ip = "127.0.0.1";
   port = 0;

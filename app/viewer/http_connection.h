@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One connection of a browser, as httplib reads and writes it: with limits on what it may send and how long it may take.
+// One connection of a browser, as httplib reads and writes it, with limits on size and duration of requests.
 #pragma once
 
 #include <httplib.h>
@@ -13,22 +13,21 @@ namespace wholehand {
 constexpr std::size_t LARGEST_HEAD = 16 * 1024;  // bytes of a request line and its headers; a browser's have one or two thousand
 constexpr std::size_t LARGEST_BODY = 64 * 1024;
 constexpr std::chrono::milliseconds IDLE_PATIENCE{2000};     // between two requests
-constexpr std::chrono::milliseconds REQUEST_PATIENCE{5000};  // for the whole of a request, from its first byte
+constexpr std::chrono::milliseconds REQUEST_PATIENCE{5000};  // for a whole request, from its first byte
 constexpr std::chrono::milliseconds WRITE_PATIENCE{2000};    // without progress
 
-// Reads and checks a request's whole head before httplib sees any of it: httplib has no limit on a line, and takes some headers apart with
-// std::regex, which recurses with every character. Those that are not needed here (ranges, compression) are hidden from it, and what it would decode
-// in
-// Host and Origin is spoilt.
+// Reads and checks a request's whole head before httplib sees any of it: httplib does not limit lines, and parses some headers with std::regex, which
+// recurses with every character. Unneeded headers (ranges, compression) are hidden from it, and values that it would decode in Host and Origin are
+// spoiled.
 class HttpConnection final : public httplib::Stream {
  public:
-  // Takes no part in closing the socket.
+  // Does not close the socket.
   explicit HttpConnection(int socket);
 
-  // none: nothing came, or only part of it; the connection is of no use any more.
+  // none: nothing came, or only part of it; the connection is no longer usable.
   enum class Head { whole, none, too_large, body_too_large, not_allowed };
   Head await_head();
-  // Whether all of the request was read: its head, and the body whose length the head says. No read goes beyond it.
+  // Whether the whole request was read: its head, and a body of the length that the head states. No read goes beyond it.
   bool is_taken() const { return left_ == 0; }
 
   bool is_readable() const override;
@@ -47,7 +46,7 @@ class HttpConnection final : public httplib::Stream {
   int socket_;
   std::string buffer_;       // received
   std::size_t at_ = 0;       // of it taken
-  std::size_t left_ = 0;     // bytes of this request that are not taken yet
+  std::size_t left_ = 0;     // bytes of this request not yet taken
   Clock::time_point until_;  // of this request
 };
 

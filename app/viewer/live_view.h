@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A live session in the browser: frames of its moments, and the server that hands them out.
+// A live session in the browser: frames of its moments, and the server that delivers them.
 #pragma once
 
 #include <functional>
@@ -14,20 +14,20 @@ namespace wholehand {
 
 class LiveView final : public Display {
  public:
-  // `live` must outlive it. `control` takes what the page posts where it is the gripper; else empty. Throws Error as ViewServer does.
+  // `live` must outlive it. `control` takes the page's posts if the page is the gripper; else empty. Throws Error as ViewServer does.
   LiveView(const LiveScene& live, const ViewFacts& facts, std::function<void(const std::string&)> control, int port);
 
   const std::string& address() const { return server_->address(); }
   bool is_watched() override { return frames_.viewers() > 0; }
   void show(const DisplayMoment& moment) noexcept override;
-  // Sends viewers why there are no more frames, and ends the server.
+  // Tells viewers why there are no more frames, and ends the server.
   void end(const std::string& reason);
 
  private:
   const LiveScene& live_;
   FrameMaker maker_;
   FrameHub frames_;
-  std::unique_ptr<ViewServer> server_;  // last: it uses the frames
+  std::unique_ptr<ViewServer> server_;  // declared last: it uses the frames
 };
 
 }  // namespace wholehand

@@ -24,11 +24,11 @@ namespace wholehand {
 namespace {
 
 constexpr int WAITING = 128;               // connections that the kernel keeps until they are taken
-constexpr std::size_t STACK = 512 * 1024;  // bytes a thread: a live session locks all memory, stacks of 8 MiB would be 256
+constexpr std::size_t STACK = 512 * 1024;  // bytes per thread: a live session locks all memory, and stacks of 8 MiB would be 256
 constexpr int MOST_REQUESTS = 10000;       // on one connection
-constexpr int SEND_BUFFER = 64 * 1024;     // bytes: half a second of frames; who has not read them is behind
+constexpr int SEND_BUFFER = 64 * 1024;     // bytes: half a second of frames; a client with more unread is too slow
 
-// Small threads that work. One piece of work too many is done at once by the thread that brings it.
+// Small working threads. The accepting thread handles excess work itself, at once.
 class Workers final : public httplib::TaskQueue {
  public:
   explicit Workers(std::size_t count) {
@@ -53,7 +53,7 @@ class Workers final : public httplib::TaskQueue {
         return;
       }
     }
-    work();  // on the thread that takes connections, by which LocalServer knows it
+    work();  // on the accepting thread, by which LocalServer recognizes it
   }
 
   void shutdown() override {
@@ -190,7 +190,7 @@ void LocalServer::serve(socket_t socket) {
     }
     bool is_closed = false;
     if (!process_request(connection, false, is_closed, nullptr) || is_closed) return;
-    // what was refused by its head has its body still to come, which is no request, whatever it looks like
+    // a head that was refused still has its body to come, which is not a request, whatever it looks like
     if (!connection.is_taken()) return;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// httplib's server for this machine only: so many connections at once and no more, on threads that are there from the start.
+// httplib's server for this machine only: a fixed number of connections, on threads started in advance.
 #pragma once
 
 #include <httplib.h>
@@ -11,8 +11,8 @@
 
 namespace wholehand {
 
-// Each connection has a thread of its own. One too many is refused and closed by the thread that takes connections, so that whoever opens
-// hundreds keeps nobody else from those that are there for longer than they are idle.
+// Each connection has its own thread. The accepting thread refuses and closes any further one, so that a client who opens hundreds only blocks others
+// for their idle time.
 class LocalServer final : public httplib::Server {
  public:
   explicit LocalServer(std::size_t connections);
@@ -21,12 +21,12 @@ class LocalServer final : public httplib::Server {
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;
 
-  // Binds 127.0.0.1; 0: any free port. Returns the port. Throws Error: (usage) the port is another program's or needs more rights;
-  // (failure) no port can be had.
+  // Binds 127.0.0.1; 0: any free port. Returns the port. Throws Error: (usage) the port is in use or needs more rights; (failure) no port is
+  // available.
   int bind(int port);
-  // Begins to answer, when it is bound and all handlers are set. Once.
+  // Starts answering, once bound and all handlers are set. Call it once.
   void start();
-  // Cuts all connections and ends the threads. Once more does nothing.
+  // Cuts all connections and ends the threads. Further calls do nothing.
   void stop_all();
 
  private:
@@ -38,7 +38,7 @@ class LocalServer final : public httplib::Server {
   bool is_over_ = false;
   std::set<socket_t> open_;
   std::thread listening_;
-  // The thread that takes connections, set by itself before the first one. A connection that it has to serve is one too many.
+  // The accepting thread, which registers itself before the first connection. A connection that it would have to serve is one too many.
   std::thread::id taking_;
 };
 

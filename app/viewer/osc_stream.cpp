@@ -65,7 +65,7 @@ void OscStream::show(const DisplayMoment& moment) noexcept {
   flush();
 }
 
-// Every datagram says first of which frame it is.
+// Every datagram first names its frame.
 void OscStream::put(std::string_view address, std::span<const OscValue> values) noexcept {
   for (int attempt = 0; attempt < 2; ++attempt) {
     if (bundle_.is_empty()) bundle_.add("/wholehand/frame", {tick_, time_});
@@ -74,8 +74,7 @@ void OscStream::put(std::string_view address, std::span<const OscValue> values) 
   }
 }
 
-// A quaternion and its negative are the same turn; the one that is nearer to what was sent before lets receivers smooth it number
-// by number.
+// A quaternion and its negative are the same rotation; sending the one nearer to the previous one lets receivers smooth it number by number.
 void OscStream::put_pose(std::string_view address, const Triple& place, const Quaternion& turn, Quaternion& before) noexcept {
   double dot = 0;
   for (std::size_t k = 0; k < 4; ++k) dot += turn[k] * before[k];

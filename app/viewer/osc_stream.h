@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A session for engines and patches, as Open Sound Control over UDP: docs/stream.md.
+// Streams a session to engines and patches, as Open Sound Control over UDP: docs/stream.md.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace wholehand {
 
-// osc://HOST:PORT, of HOST an IPv6 address in brackets. Throws Error (usage) in the name of --stream.
+// Parses osc://HOST:PORT, with an IPv6 HOST in brackets. Throws Error (usage) in the name of --stream.
 HostPort parse_osc_url(const std::string& url);
 
-// Sends frames and never looks whether anybody takes them.
+// Sends frames without checking whether anybody receives them.
 class OscStream final : public Display {
  public:
   // `live` must outlive it. Throws Error (failure): the host is not known, or there is no socket.
@@ -30,11 +30,11 @@ class OscStream final : public Display {
   // A line that the user must see: the session goes to another machine. Empty: it does not.
   const std::string& note() const { return note_; }
 
-  // Sends a frame, in as many datagrams of DATAGRAM bytes as it takes. One that the system does not take at once, or that nobody
-  // listens for, is lost. Waits for nothing.
+  // Sends a frame, in as many datagrams of DATAGRAM bytes as needed. A datagram that the system does not take at once, or that nobody receives, is
+  // lost. Never waits.
   void show(const DisplayMoment& moment) noexcept override;
 
-  // Bytes: less than any network between two machines cuts in two, and than any receiver's buffer.
+  // Bytes: fits any network between two machines unfragmented, and any receiver's buffer.
   static constexpr std::size_t DATAGRAM = 1400;
 
  private:
@@ -61,7 +61,7 @@ class OscStream final : public Display {
   UdpAddress to_;
   UdpSocket socket_;
   std::array<std::string, JOINT_COUNT> joints_;
-  std::array<Quaternion, JOINT_COUNT + 1> turns_{};  // of joints and wrist that were sent last
+  std::array<Quaternion, JOINT_COUNT + 1> turns_{};  // of joints and wrist, as last sent
   std::array<std::string, JOINT_COUNT> ghost_joints_;
   std::array<Quaternion, JOINT_COUNT + 1> ghost_turns_{};
   std::vector<Named> vessels_;

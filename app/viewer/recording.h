@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A recorded session in the browser: any moment of it.
+// A recorded session in the browser, at any moment.
 #pragma once
 
 #include <memory>
@@ -21,9 +21,9 @@ class RecordingView {
   RecordingView(const Scene& scene, Recording recording);
 
   double duration() const;  // s, to the end of the last tick
-  // Frames at `from`, `from` + 1 / `rate`, .. up to `to`, s: each of the newest tick by then, the first where there is none yet.
+  // Frames at `from`, `from` + 1 / `rate`, .. up to `to`, s: each of the newest tick by then, or the first if there is none yet.
   std::vector<ViewFrame> frames(double from, double to, double rate) const;
-  // scene.json and recording of it, for a server; it must be outlived by this.
+  // scene.json and recording of it, for a server, which must not outlive this.
   ViewContent content(const std::string& title) const;
 
  private:

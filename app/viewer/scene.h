@@ -11,16 +11,16 @@ namespace wholehand {
 
 enum class ViewMode { live, recording, grips };
 
-// What the page shows beside the scene: which gripper it was or what evaluated it; and the parts that only some modes have, as JSON: the
-// control's limits, the length of a recording, the grips.
+// What the page shows besides the scene: the gripper or the evaluating backend, and mode-specific parts as JSON: the control's limits, the length of
+// a recording, the grips.
 struct ViewFacts {
   ViewMode mode = ViewMode::live;
   std::string title, device;
-  std::string control_limits;        // empty: the page is no gripper
+  std::string control_limits;        // empty: the page is not a gripper
   double duration = 0, rate = 0;     // s, Hz: of a recording
-  double most_force = 0;             // N that may be written to the gripper's fingers; 0: there is no gripper
+  double most_force = 0;             // largest force on the gripper's fingers, N; 0: there is no gripper
   std::string grips;                 // empty: none
-  std::vector<double> fills, tilts;  // of grips: what is asked for, of the capacity and rad
+  std::vector<double> fills, tilts;  // of grips: the request, of the capacity and rad
 };
 
 // One JSON object. Vessels in the scene's order, joints in the order of docs/method.md. Throws Error as prepare_vessel.

@@ -37,7 +37,7 @@ std::string new_token() {
   return token;
 }
 
-// As long for any text of the same length.
+// Takes equally long for any text of the same length.
 bool is_equal(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned char differs = 0;
@@ -60,7 +60,7 @@ ViewContent::Query query_of(const Request& request) {
   return query;
 }
 
-// One viewer's frames, as long as he reads them: those after the one of number `seen`.
+// One viewer's frames, until it stops reading: those after number `seen`.
 class Watcher {
  public:
   Watcher(FrameHub& frames, std::uint64_t seen) : frames_(frames), seen_(seen) {}
@@ -96,7 +96,7 @@ class ViewServer::Pages {
          {"Cross-Origin-Resource-Policy", "same-origin"},
          {"Referrer-Policy", "no-referrer"},
          {"X-Content-Type-Options", "nosniff"}});
-    // every request is answered here but the one that has a body
+    // every request is answered here except the one that has a body
     server_.set_pre_routing_handler([this](const Request& request, Response& response) { return route(request, response); });
     server_.Post("/" + token_ + "/control", [this](const Request& request, Response& response) {
       answer(response, [&] {
@@ -122,7 +122,7 @@ class ViewServer::Pages {
   }
 
  private:
-  // A page of another origin must not get in by a name of its own for this address, nor by asking from there.
+  // A page of another origin must not get in by another name for this address, nor by a request from there.
   bool is_own(const Request& request) const {
     const std::string host = request.get_header_value("Host");
     if (request.get_header_value_count("Host") != 1) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Serves a view to browsers on this machine: the page, what it shows, and what is done on it. docs/view.md is the protocol.
+// Serves a view to browsers on this machine: the page, its data, and its actions. docs/view.md is the protocol.
 #pragma once
 
 #include <functional>
@@ -16,12 +16,12 @@ namespace wholehand {
 constexpr int MOST_VIEWERS = 8;               // that are sent frames
 constexpr std::size_t MOST_CONNECTIONS = 32;  // of any kind
 
-// The content of a view. What is not set is not there (404). Many threads call the functions at once; an Error that they throw is the
-// answer (400), its line the reason.
+// The content of a view. Unset parts give 404. Many threads call the functions at once; an Error that they throw becomes the answer (400), with its
+// line as the reason.
 struct ViewContent {
   using Query = std::map<std::string, std::string>;
   std::string scene;                                          // scene.json
-  std::vector<std::string> meshes;                            // of each vessel; empty: it is none
+  std::vector<std::string> meshes;                            // of each vessel; empty: not a mesh
   FrameHub* frames = nullptr;                                 // must outlive the server
   std::function<std::string(const Query&)> recording, state;  // JSON
   std::function<void(const std::string& body)> control;
@@ -36,9 +36,9 @@ class ViewServer {
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
 
-  // "http://127.0.0.1:PORT/TOKEN/". Who knows it sees the view; the token is new with each server.
+  // "http://127.0.0.1:PORT/TOKEN/". Whoever knows it sees the view; the token is new with each server.
   const std::string& address() const;
-  // Gives viewers whose frames are over a moment to learn it, and cuts all connections.
+  // Gives viewers a moment to learn that their frames have ended, and cuts all connections.
   void stop();
 
  private:
@@ -46,10 +46,10 @@ class ViewServer {
   std::unique_ptr<Pages> pages_;
 };
 
-// Whether a request's Host names this server: 127.0.0.1 or localhost with its port, which clients leave out where it is 80.
+// Whether a request's Host names this server: 127.0.0.1 or localhost with its port, which clients omit if it is 80.
 bool is_own_host(std::string_view host, int port);
 
-// A number of a query: the whole text, finite and in its range. Throws Error (usage).
+// Parses a number of a query: the whole text, finite and in its range. Throws Error (usage).
 double query_number(const ViewContent::Query& query, const std::string& name, double low, double high);
 
 }  // namespace wholehand

@@ -49,7 +49,7 @@ ChartName spoken_name(const BoxChart& chart) {
 
 // ---- where things are ----
 
-// From 0 where nothing is below it and little room is lost by that.
+// From 0 if nothing is below it and little space is lost.
 void set_heights(const BoxChart& chart, PlotArea& area) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   const auto widen = [&](double value) {
@@ -131,7 +131,7 @@ void put_mark(MarkupWriter& svg, const PlotArea& area, const BoxChart::Mark& mar
   put_diamond(svg, x, area.y(mark.mean));
 }
 
-// As much of a text as has room, with an ellipsis where that is not all.
+// As much of a text as fits, with an ellipsis if it is cut.
 std::string cut(const std::string& text, double room) {
   if (text_width(text) <= room) return text;
   std::string shown = text;
@@ -142,7 +142,7 @@ std::string cut(const std::string& text, double room) {
   return shown + "\u2026";
 }
 
-// Level where all of them have room, else all of them slanted. Returns the y of the lowest foot.
+// Level if all of them fit, else all slanted. Returns the y of the lowest foot.
 double put_labels(MarkupWriter& svg, const PlotArea& area, const BoxChart& chart) {
   const bool is_level = std::all_of(chart.groups.begin(), chart.groups.end(),
                                     [&](const auto& group) { return text_width(group.label) <= slot_width(area) - 4; });
@@ -163,7 +163,7 @@ double put_labels(MarkupWriter& svg, const PlotArea& area, const BoxChart& chart
   return foot;
 }
 
-// What marks and the numbers above the boxes mean. Returns the y of its foot.
+// The meaning of marks and of the numbers above the boxes. Returns the y of its foot.
 double put_key(MarkupWriter& svg, const PlotArea& area, const BoxChart& chart, double foot) {
   if (!chart.mark.empty() && std::any_of(chart.groups.begin(), chart.groups.end(), has_mark)) {
     foot += 1.5 * CHART_LETTER;

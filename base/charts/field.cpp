@@ -15,13 +15,13 @@ namespace {
 
 constexpr int SHADES = 48;  // of a continuous scale: finer differences are not seen
 
-// Ticks of an axis of cells: at its cells where it has no more than one of them.
+// Ticks of an axis of cells: at its cells, if each has at most one.
 std::vector<double> cell_ticks(const std::vector<double>& edges, int count, bool is_angle) {
   if (edges.size() == 2) return {0.5 * (edges[0] + edges[1])};
   return round_ticks(edges.front(), edges.back(), count, is_angle);
 }
 
-// Which color of the scale a value has, and what that color is.
+// The color index of a value on the scale, and that color.
 int shade_of(const ColorScale& scale, double value) {
   if (scale.steps > 0) return std::clamp(static_cast<int>(std::lround(value - scale.low)), 0, scale.steps - 1);
   const double share = scale.high > scale.low ? (value - scale.low) / (scale.high - scale.low) : 1;
@@ -33,8 +33,8 @@ std::string shade_color(const ColorScale& scale, int shade) {
   return sequential_color(last > 0 ? static_cast<double>(shade) / last : 1);
 }
 
-// Cells of one color are one path, and those above one another one rectangle: a chart of many cells stays small. Each reaches a
-// little under its neighbors, so that a printer leaves no seams.
+// Cells of one color form one path, and those above one another one rectangle, so that a chart of many cells stays small. Each extends slightly below
+// its neighbors, so that a printer leaves no seams.
 void put_cells(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area) {
   constexpr double UNDER = 0.3;            // units
   constexpr int HOLLOW = -1, ABSENT = -2;  // the ground shows what is absent
@@ -65,7 +65,7 @@ void put_cells(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area)
   }
 }
 
-// A gray and what it means, from `x` on. Returns where that ends.
+// A gray and its meaning, from `x` on. Returns the end.
 double put_swatch(MarkupWriter& svg, double x, double y, const char* style, const std::string& label) {
   svg.empty("rect", {{"x", chart_number(x)}, {"y", chart_number(y - 9)}, {"width", "12"}, {"height", "10"}, {"class", style}});
   put_text(svg, x + 16, y, label, "start");
@@ -103,7 +103,7 @@ void put_scale(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area,
   put_text(svg, left, y + 2 + CHART_LETTER, low, "start");
   put_text(svg, right, y + 2 + CHART_LETTER, high, "end");
   if (!(scale.high > scale.low)) return;
-  // numbers between where they do not touch those at the ends
+  // numbers in between if they do not touch those at the ends
   for (const double tick : round_ticks(scale.low, scale.high, std::max(1, static_cast<int>(width / 30)))) {
     const std::string text = shown_number(tick, scale.digits);
     const double at = left + width * (tick - scale.low) / (scale.high - scale.low), half = 0.5 * text_width(text) + 3;
@@ -120,7 +120,7 @@ void put_mark(MarkupWriter& svg, double x, double y, bool is_first) {
   svg.empty("circle", {{"class", "mark"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "2.2"}});
 }
 
-// Where the parts of a chart are that begins at y = `top`.
+// The positions of the parts of a chart that begins at y = `top`.
 struct FieldPlaces {
   PlotArea area;
   double scale = 0, grays = 0, end = 0;  // y

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of an HTML page: tables, and pictures as addresses.
+// Parts of an HTML page: tables, and pictures as data URLs.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace wholehand {
 
-// A table with header cells of their own scope. Wide ones scroll in a frame of their own, which a keyboard reaches, and not the page.
+// A table whose header cells have a scope. A wide table scrolls in its own frame, which the keyboard can reach; the page does not scroll.
 class HtmlTable {
  public:
-  // `caption`: what the table holds, printed above it; `words`: columns that hold words and not numbers.
+  // `caption`: the text above the table; `words`: columns that hold words instead of numbers.
   HtmlTable(MarkupWriter& html, const std::string& caption, const std::vector<std::string>& columns,
             const std::vector<std::size_t>& words = {});
-  // The first cell is the row's header.
+  // The first cell is the row header.
   void row(const std::vector<std::string>& cells);
   void end();
 
@@ -27,7 +27,7 @@ class HtmlTable {
   std::vector<std::size_t> words_;
 };
 
-// An address that is the picture itself.
+// A data URL that contains the picture.
 std::string svg_address(std::string_view svg);
 
 }  // namespace wholehand

@@ -27,7 +27,7 @@ bool overlap(const LabelBox& a, const LabelBox& b) {
   return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
 }
 
-// How much of a line runs through a box, by points that lie close together.
+// How much of a line runs through a box, estimated at closely spaced points.
 double length_within(const LabelBox& box, const std::vector<Point>& line) {
   constexpr double STEP = 3;
   double inside = 0;
@@ -57,8 +57,7 @@ double way_to_others(const Point& p, const std::vector<std::vector<Point>>& line
   return least;
 }
 
-// A place for each line's label: beside the line where it is furthest from the others, nearer to it than to them, on no line and no
-// other label.
+// A place for each line's label: beside the line where it is furthest from the others, nearer to it than to them, and not on a line or another label.
 std::vector<LabelBox> place_labels(const PlotArea& area, const std::vector<std::vector<Point>>& lines,
                                    const std::vector<std::string>& labels) {
   std::vector<LabelBox> placed;
@@ -91,7 +90,7 @@ std::vector<LabelBox> place_labels(const PlotArea& area, const std::vector<std::
   return placed;
 }
 
-// The height of a line at x, between its points; NaN where there is a gap.
+// The height of a line at x, interpolated; NaN in a gap.
 double height_at(const LineChart& chart, const LineChart::Line& line, double x) {
   const auto above = std::lower_bound(chart.x.begin(), chart.x.end(), x);
   if (above == chart.x.end()) return std::nan("");
@@ -120,7 +119,7 @@ PlotArea area_of(const LineChart& chart) {
   return area;
 }
 
-// The points of a line that are on the plot, the path through them, and those of them that have an infinite neighbor.
+// The visible points of a line, the path through them, and those with an infinite neighbor.
 struct DrawnLine {
   std::vector<Point> points;
   std::string path;

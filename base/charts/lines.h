@@ -29,8 +29,8 @@ struct LineChart {
     double y = 0;
     std::string label;
   };
-  std::optional<Limit> limit;  // a level line, shown where it is within the chart
-  double highest = 0;          // of the y that is shown; 0: of all lines
+  std::optional<Limit> limit;  // a level line, drawn if it lies within the chart
+  double highest = 0;          // of the visible y; 0: of all lines
 };
 void write_chart(MarkupWriter& svg, const LineChart& chart);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes SVG, and HTML that is well-formed XML too: every element is closed, every text and attribute escaped, in this one place.
+// Writes SVG, and HTML that is also well-formed XML: this file alone closes every element and escapes every text and attribute.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace wholehand {
 
-// Text for an element or a quoted attribute: markup's characters as references; what XML cannot hold (control characters, bytes
-// that are no UTF-8) as U+FFFD.
+// Escapes text for an element or a quoted attribute: markup characters become references, and what XML cannot hold (control characters, invalid
+// UTF-8) becomes U+FFFD.
 std::string markup_escaped(std::string_view text);
 
-// Elements in their order, HTML's and, in an SVG, SVG's. What is opened must be closed, innermost first.
+// Writes elements in order, HTML's and, within an SVG, SVG's. The caller closes what it opens, innermost first.
 class MarkupWriter {
  public:
   using Attributes = std::vector<std::pair<const char*, std::string>>;
@@ -21,9 +21,9 @@ class MarkupWriter {
   MarkupWriter& open(const char* tag, const Attributes& attributes = {});
   MarkupWriter& close();
   MarkupWriter& text(std::string_view text);
-  // An element with nothing but text in it.
+  // An element that contains only text.
   MarkupWriter& element(const char* tag, std::string_view text, const Attributes& attributes = {});
-  // One that never has anything in it: closed in its own tag.
+  // An element without content, closed in its own tag.
   MarkupWriter& empty(const char* tag, const Attributes& attributes = {});
   // What is markup already.
   MarkupWriter& markup(std::string_view markup);
@@ -42,7 +42,7 @@ class MarkupWriter {
 // "-12.3" with a minus sign as wide as a plus; an en dash for NaN, "∞" for infinity.
 std::string shown_number(double value, int digits);
 
-// As short as six figures allow: "0.8", "1,000".
+// As short as six digits allow: "0.8", "1,000".
 std::string plain_number(double value);
 
 }  // namespace wholehand

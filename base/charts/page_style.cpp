@@ -3,7 +3,7 @@
 
 namespace wholehand {
 
-// No '<' or '&' in it: it stands in the page as it is.
+// Contains no '<' or '&', because it stands in the page unescaped.
 const char* const REPORT_STYLE = R"css(
 :root {
   color-scheme: light dark;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The style sheet of a report: a phone's column to a wide screen, light and dark, and paper. Its charts have theirs (base/charts/style.h).
+// The style sheet of a report: from a phone's column to a wide screen, light, dark and printed. Charts have their own (base/charts/style.h).
 #pragma once
 
 namespace wholehand {

@@ -16,7 +16,7 @@ constexpr double TITLE_LETTER = 13;   // units, as the style sheet has it
 constexpr double TITLE_WIDER = 1.28;  // than other text: it is larger and bold
 constexpr double TITLE_SIDE = 2;      // units, free at its left and at its right
 
-// As long a beginning as has room, whole words of it where there is more than one; at least a letter.
+// The longest beginning that fits, in whole words if there is more than one; at least a letter.
 std::size_t line_end(const std::string& text, double room) {
   std::size_t end = 0, word_end = 0;
   while (end < text.size()) {
@@ -51,7 +51,7 @@ double open_picture(MarkupWriter& svg, const PictureFrame& frame) {
                    {"viewBox", fmt::format("0 0 {} {}", chart_number(frame.width), chart_number(height))},
                    {"role", "img"},
                    {"aria-labelledby", "title text"}});
-  svg.markup(PICTURE_MARK).markup("\n");  // before what a scene or recording names, which may be long
+  svg.markup(PICTURE_MARK).markup("\n");  // before a name from a scene or recording, which may be long
   svg.element("title", frame.title, {{"id", "title"}});
   svg.element("desc", frame.description, {{"id", "text"}});
   svg.open("style").markup("\n" + picture_rules()).close();

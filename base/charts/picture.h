@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of its own, as a file holds it: an SVG with its title, a white ground and its own style, so that it reads the same in
-// print and on a dark page.
+// A standalone picture file: an SVG with a title, a white background and its own style, so it reads the same in print and on a dark page.
 #pragma once
 
 #include <string>
@@ -10,14 +9,14 @@
 namespace wholehand {
 
 struct PictureFrame {
-  std::string title;        // is drawn, and what a screen reader says first
-  std::string description;  // what a screen reader says then
+  std::string title;        // drawn, and read first by a screen reader
+  std::string description;  // read next by a screen reader
   double width = 0;         // units
-  double height = 0;        // units, of what is under the title
+  double height = 0;        // units, of the area under the title
   double scale = 1;         // pixels of a unit
 };
 
-// Opens the picture, to be closed by the caller. Returns the y at which its room begins, under the title.
+// Opens the picture; the caller closes it. Returns the y at which the area under the title begins.
 double open_picture(MarkupWriter& svg, const PictureFrame& frame);
 
 }  // namespace wholehand

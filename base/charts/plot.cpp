@@ -39,7 +39,7 @@ PlotArea plot_area(const Plot& plot, const PlotPlace& place) {
           plot.x.high, plot.y.low, plot.y.high, plot.x.is_logarithmic, plot.y.is_logarithmic};
 }
 
-// Whether a value has a place on the page: it is finite there, and no more than some plots away.
+// Whether a value can be drawn: it is finite on the page, and not too many plots away.
 bool has_place(const PlotArea& area, const std::array<double, 2>& point) {
   constexpr double FAR = 1e5;  // units
   const double x = area.x(point[0]), y = area.y(point[1]);
@@ -52,7 +52,7 @@ bool is_within(const PlotArea& area, const std::array<double, 2>& point) {
   return x >= area.left - SLACK && x <= area.right + SLACK && y >= area.top - SLACK && y <= area.bottom + SLACK;
 }
 
-// All boxes of a layer are one path. Each reaches a little under its neighbor, so that a printer leaves no seams.
+// All boxes of a layer are one path. Each extends slightly below its neighbor, so that a printer leaves no seams.
 void put_boxes(MarkupWriter& svg, const PlotArea& area, const PlotLayer& layer) {
   constexpr double UNDER = 0.3;  // units
   std::string path;
@@ -67,7 +67,7 @@ void put_boxes(MarkupWriter& svg, const PlotArea& area, const PlotLayer& layer) 
   if (!path.empty()) svg.empty("path", {{"class", "cell"}, {"fill", layer.color}, {"d", path}});
 }
 
-// Leaves out the points between the first and the last of those that lie level.
+// Leaves out the points between the first and the last of a level run.
 std::string line_path(const PlotArea& area, const std::vector<std::array<double, 2>>& points) {
   std::string path;
   bool is_drawn = false;
@@ -104,7 +104,7 @@ void put_layer_marks(MarkupWriter& svg, const PlotArea& area, const PlotLayer& l
   if (!path.empty()) svg.empty("path", {{"fill", layer.color}, {"d", path}});
 }
 
-// Lines may leave the axes: what is beyond them is cut off.
+// Lines may leave the axes; the part outside is clipped.
 void put_layer_lines(MarkupWriter& svg, const PlotArea& area, const std::vector<PlotLayer>& layers) {
   const std::string id = fmt::format("axes-{:.0f}-{:.0f}", area.left, area.top);
   svg.open("clipPath", {{"id", id}});
@@ -132,7 +132,7 @@ double overlap_of(const NoteBox& a, const NoteBox& b) {
   return wide > 0 && high > 0 ? wide * high : 0;
 }
 
-// The place about the point, at eight sides and two distances, that covers least of what is there and of what is beyond the axes.
+// The place around the point, at eight sides and two distances, that covers the least drawn area and the least outside the axes.
 NoteBox note_box(const PlotArea& area, const PlotNote& note, const std::vector<NoteBox>& taken) {
   constexpr double HALF_HEIGHT = 0.42 * CHART_LETTER;
   const double half = 0.5 * text_width(note.text), x = area.x(note.x), y = area.y(note.y);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A chart: areas, lines and points over two axes, with a legend. For pictures of their own, as its colors do not follow a page.
+// A chart: areas, lines and points over two axes, with a legend. Use it only in standalone pictures, because its colors do not follow a page.
 #pragma once
 
 #include <array>
@@ -23,20 +23,20 @@ struct PlotBox {
   double left = 0, bottom = 0, right = 0, top = 0;
 };
 
-// One thing that a plot shows, and how its legend names it.
+// One thing that a plot shows, and its name in the legend.
 struct PlotLayer {
-  std::string label;                            // empty: it is not in the legend
+  std::string label;                            // empty: not in the legend
   std::string color;                            // "#rrggbb"
   bool is_area = false;                         // the legend shows an area; else a line or a mark
   std::vector<PlotBox> boxes{};                 // filled; under all lines and points
-  double line = 0;                              // width of the line through the points, units; 0: there is none
-  const char* dashes = "";                      // lengths of its dashes and gaps; empty: it is whole
+  double line = 0;                              // width of the line through the points, units; 0: none
+  const char* dashes = "";                      // lengths of dashes and gaps; empty: a solid line
   MarkShape mark = MarkShape::none;             // of each point
   double mark_size = 3;                         // half of its width, units
-  std::vector<std::array<double, 2>> points{};  // what has no place on the axes is a gap in the line
+  std::vector<std::array<double, 2>> points{};  // a value outside the axes leaves a gap in the line
 };
 
-// A text beside a point, on no other note and on no mark if there is room.
+// A text beside a point. It avoids other notes and, if there is room, marks.
 struct PlotNote {
   double x = 0, y = 0;
   std::string text;
@@ -50,18 +50,17 @@ struct Plot {
   double label_rise = 12;  // of the y axis' label above the plot, units
 };
 
-// The rectangle of the axes, units; labels, numbers and title stand outside.
+// The rectangle of the axes, units; labels, numbers and title lie outside it.
 struct PlotPlace {
   double left = 0, top = 0, right = 0, bottom = 0;
 };
 
 void put_plot(MarkupWriter& svg, const Plot& plot, const PlotPlace& place);
 
-// The labeled layers from the left to the right, in as many rows as it takes. `y`: the foot of the first row's letters. Returns
-// that of the last.
+// Draws the labeled layers from left to right, in as many rows as needed. `y`: the baseline of the first row. Returns the last row's baseline.
 double put_legend(MarkupWriter& svg, const std::vector<PlotLayer>& layers, double left, double y, double right);
 constexpr double LEGEND_STEP = 15;  // from row to row, units
-// How much it takes, from above its first row to below its last.
+// The total height, from above the first row to below the last.
 double legend_height(const std::vector<PlotLayer>& layers, double left, double right);
 
 }  // namespace wholehand

@@ -7,14 +7,14 @@
 namespace wholehand {
 namespace {
 
-// As the page of a report has them in print.
+// Like a report's page in print.
 constexpr std::pair<std::string_view, std::string_view> PICTURE_COLORS[] = {
     {"var(--ink)", "#202020"},  {"var(--soft)", "#57606a"}, {"var(--page)", "#ffffff"},
     {"var(--rule)", "#d0d7de"}, {"var(--none)", "#e3e6ea"}, {"var(--hollow)", "#a9afb7"}};
 
 }  // namespace
 
-// No '<' or '&' in these: they stand in the page as they are.
+// Contain no '<' or '&', because they stand in the page unescaped.
 const char* const CHART_RULES = R"css(
 svg text { font-size: 11px; fill: var(--ink); }
 svg .mid { text-anchor: middle; }

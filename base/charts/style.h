@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
-// How the parts of charts look, by their classes.
+// The style of chart parts, by class.
 #pragma once
 
 #include <string>
 
 namespace wholehand {
 
-// Style sheets for a page that has charts in it and sets --ink, --soft, --page, --rule, --none, --hollow and --bad: what all charts
-// use, what lines with a color by day and another by night use, and what box plots use.
+// Style sheets for a page with charts that sets --ink, --soft, --page, --rule, --none, --hollow and --bad: one for all charts, one for lines with a
+// light and a dark color, and one for box plots.
 extern const char* const CHART_RULES;
 extern const char* const LINE_RULES;
 extern const char* const BOX_RULES;
 
-// CHART_RULES for a picture of its own: black on white by day and by night, and without variables, which programs for papers do not
-// know.
+// CHART_RULES for a standalone picture: always black on white, and without CSS variables, which programs for papers do not support.
 std::string picture_rules();
 
 }  // namespace wholehand

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto STALE = std::chrono::hours(1);  // what is not whole by then never will be
+constexpr auto STALE = std::chrono::hours(1);  // an unfinished file older than this is abandoned
 constexpr std::uintmax_t MOST_MEBIBYTES = 1'000'000'000;
 constexpr std::string_view PIPELINES = ".pipelines";
 
@@ -47,7 +47,7 @@ bool is_kept_name(std::string_view name, bool& is_whole) {
   return is_whole || (rest[0] == '.' && is_digits(rest.substr(1)));
 }
 
-// Others may add and remove files meanwhile: what has gone is passed over.
+// Others may add and remove files meanwhile; missing ones are skipped.
 std::vector<CachedFile> cached_files(const fs::path& folder) {
   std::vector<CachedFile> files;
   for (const fs::path& part : {folder, folder / "grids"}) {

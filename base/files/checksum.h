@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checksums of what a sweep wrote: of data in many places of a file, hashed while it is written or when it is read back.
+// Checksums of what a sweep wrote: data in many places of a file, hashed while it is written or read back.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// A checksum over runs: each run is fed in order, the runs in any order, and how they were cut does not count. 128 bits, XXH3.
+// A 128-bit XXH3 checksum over runs. Each run is fed in order, but runs may come in any order and be cut anywhere.
 class RunsChecksum {
  public:
   RunsChecksum();
@@ -20,7 +20,7 @@ class RunsChecksum {
   RunsChecksum& operator=(RunsChecksum&&) noexcept;
 
   void add(std::size_t run, const void* data, std::size_t size);
-  // The checksum of all runs so far, as hexadecimal digits; more may follow.
+  // The checksum of all runs so far, in hexadecimal digits. More data may follow.
   std::string text() const;
 
  private:
@@ -31,7 +31,7 @@ class RunsChecksum {
 // The checksum of one piece of data.
 std::string checksum_text(const void* data, std::size_t size);
 
-// 64 bits of it, which depend on `before` as well.
+// 64 bits of it, which also depend on `before`.
 std::uint64_t checksum_after(std::uint64_t before, const void* data, std::size_t size);
 
 // `size` bytes of a file from `offset` on.
@@ -40,10 +40,10 @@ struct FileRange {
   bool operator==(const FileRange&) const = default;
 };
 
-// Adds a range of an open file to a run; what the file does not have of it is left out. False: it cannot be read.
+// Adds a range of an open file to a run, as far as the file has it. Returns false if it cannot be read.
 bool add_range(RunsChecksum& checksum, std::size_t run, int file, FileRange range);
 
-// The checksum of an open file but for some ranges, which are in the file's order; and its length. Nothing where it cannot be read.
+// The checksum and the length of an open file, without some ranges, which are in ascending order. Nothing if the file cannot be read.
 std::optional<std::string> checksum_without(int file, const std::vector<FileRange>& ranges);
 
 }  // namespace wholehand

@@ -8,21 +8,19 @@
 
 namespace wholehand {
 
-// The cell of a text: in quotes where a comma, a quote or a line break would end it; with an apostrophe before it where a spreadsheet would compute
-// it, as it begins with = + - @ or a tab (after any apostrophes); without what steers a terminal (base/text/printable.h), but with its lines and
-// tabs. A
-// number is no text.
+// The cell of a text. It is quoted if it has a comma, a quote or a line break. A text that begins (after any apostrophes) with = + - @ or a tab gets
+// an apostrophe in front, since a spreadsheet would compute it. Characters that control a terminal are removed (base/text/printable.h), except line
+// feeds and tabs. Do not use it for numbers.
 std::string csv_text(const std::string& text);
 
-// A row of a file, and the line of the file in which it begins, from 1.
+// A row of a file, and the line number (from 1) at which it begins.
 struct CsvRow {
   std::size_t line = 1;
   std::vector<std::string> cells;
 };
 
-// The rows of a file's text, empty ones left out; with either line end, with or without a byte order mark; without the apostrophe of csv_text. A
-// quote that is not closed ends
-// with the text.
+// The rows of a file's text, without empty ones. Accepts either line ending, with or without a byte order mark, and removes csv_text's apostrophe. An
+// unclosed quote ends at the end of the text.
 std::vector<CsvRow> parse_csv(const std::string& text);
 
 }  // namespace wholehand

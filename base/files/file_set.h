@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that belong together: those of a run take the place of an earlier run's once all of them are whole.
+// Files that belong together: a run's files replace an earlier run's only when all of them are complete.
 #pragma once
 
 #include <string>
@@ -7,32 +7,31 @@
 
 namespace wholehand {
 
-// On the way each file has another name beside its own, which ends in ".new". So a disk that fills up leaves the earlier files as
-// they were. The names are always the same: a lock must keep other processes from them (OutputLock).
+// Until commit() each file has a temporary name beside its own, ending in ".new". So a full disk leaves the earlier files intact. The temporary names
+// are fixed, so a lock must keep other processes away (OutputLock).
 class FileSet {
  public:
   FileSet() = default;
-  // Removes what has not been given its own name.
+  // Removes files that have not been renamed.
   ~FileSet();
   FileSet(const FileSet&) = delete;
   FileSet& operator=(const FileSet&) = delete;
 
-  // What becomes the file that `path` is or points to has this name on the way.
+  // The temporary name of the file that `path` is or points to.
   static std::string temporary_name(const std::string& path);
 
-  // Where to write what becomes the file that `path` is or points to. Nothing is there yet: what a killed process left goes.
+  // Returns where to write the file that `path` is or points to. Removes what a killed process left there.
   std::string temporary_path(const std::string& path);
-  // Writes `text` there. Throws Error (failure) with the remedy.
+  // Writes `text` to it. Throws Error (failure) with the remedy.
   void write(const std::string& path, const std::string& text, const char* remedy);
-  // Leaves no file at `path`: commit() removes what is there, and nothing written for it takes its place.
+  // Leaves no file at `path`: commit() removes an existing file and writes no new one.
   void remove_on_commit(const std::string& path);
 
-  // Flushes all files, and only then renames them, one after the other in the order in which they were asked for. Throws Error
-  // (failure) with the remedy; a file that cannot be flushed is found before the first one is renamed. A process that is killed
-  // among the renames, or a rename that fails, leaves some files of the set and some earlier ones.
+  // Flushes all files, and only then renames them in the order in which they were requested. Throws Error (failure) with the remedy; a flush that
+  // fails prevents all renames. If the process is killed during the renames, or a rename fails, some files are new and some old.
   void commit(const char* remedy);
 
-  // A message with the files' own names in place of those on the way.
+  // The message with final names in place of temporary ones.
   std::string with_own_names(std::string message) const;
 
  private:

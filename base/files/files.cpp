@@ -32,13 +32,13 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// Whether the folder of `name` does, whatever it is called: /dev/fd is one of them.
+// Whether the folder of `name` is that one, under any name: /dev/fd is one of them.
 bool lies_on_procfs(const std::filesystem::path& name) {
   struct statfs system {};
   return statfs(folder_of(name.string()).c_str(), &system) == 0 && system.f_type == PROC_SUPER_MAGIC;
 }
 
-// Root may write anywhere, and still not make a file in every folder.
+// Root may write anywhere, but still cannot make a file in every folder.
 void try_folder(const std::string& asked, const std::string& folder, const char* option = "-o") {
   std::string trial = folder + "/.wholehand-XXXXXX";
   const int file = mkstemp(trial.data());
@@ -99,7 +99,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 
 namespace {
 
-// The first bytes of what is at `path`. Nothing: it is not there. What is no regular file has no bytes that anybody knows.
+// The first bytes of the file at `path`. Nothing: it does not exist. Anything but a regular file counts as having no known bytes.
 std::optional<std::string> head_of(const std::string& path, std::size_t size) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return errno == ENOENT ? std::nullopt : std::optional<std::string>("?");
@@ -184,7 +184,7 @@ void check_room(const std::string& path, std::uint64_t bytes, const char* remedy
   if (!error && fallocate(file, 0, 0, static_cast<off_t>(bytes)) != 0) {
     error = errno;
     if (error == EOPNOTSUPP || error == ENOSYS) {
-      // a file system that cannot reserve: see at least that it takes something
+      // a file system that cannot reserve: at least checks that it accepts something
       const std::vector<char> some(std::min<std::uint64_t>(bytes, 1 << 20));
       error = pwrite(file, some.data(), some.size(), 0) == static_cast<ssize_t>(some.size()) ? 0 : ENOSPC;
     }

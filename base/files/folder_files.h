@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a command writes into a folder that the user names: its own files are replaced, those of others are not.
+// Files that a command writes into a folder that the user names: it replaces its own files, never others.
 #pragma once
 
 #include <span>
@@ -8,13 +8,13 @@
 
 namespace wholehand {
 
-// A table or text of ours, by its name and by how it begins.
+// A table or text of ours, with its name and its first bytes.
 struct FolderTable {
   const char* name;
   std::string_view start;
 };
 
-// Throws Error (usage) where one of the tables or pictures is there, has something in it and is not of `command`.
+// Throws Error (usage) if one of the tables or pictures exists, is not empty and is not `command`'s.
 void check_folder_files(const std::string& folder, const char* command, std::span<const FolderTable> tables,
                         std::span<const char* const> pictures);
 

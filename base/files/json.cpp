@@ -14,9 +14,8 @@ namespace {
 // Whether a text begins with a zero that has a sign.
 bool is_negative_zero(std::string_view json) { return json.starts_with("-0.0") && json.substr(4).find_first_of("0123456789") != 0; }
 
-// What nlohmann's writer leaves. It escapes control characters of ASCII; others that steer a terminal or a page (base/text/printable.h) stand in
-// strings
-// alone, and are escaped there. A zero loses its sign.
+// Post-processes nlohmann's output, which escapes only ASCII control characters. Others that control a terminal or a page (base/text/printable.h)
+// occur only in strings, and are escaped here. A zero loses its sign.
 std::string finished(const std::string& json) {
   std::string safe;
   safe.reserve(json.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// JSON to and from text. nlohmann's own reader and writer are templates, and cost every file that calls them 0.8 s of compilation. Here
-// they are compiled once (docs/results, "A bare Debian 12").
+// JSON to and from text. nlohmann's reader and writer are templates that cost each calling file 0.8 s of compilation, so they are compiled once, here
+// (docs/results, "A bare Debian 12").
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,15 +9,15 @@
 
 namespace wholehand {
 
-// The value of a text. Throws nlohmann::json::parse_error where it is not JSON.
+// The value of a text. Throws nlohmann::json::parse_error if it is not JSON.
 nlohmann::json parse_json(std::string_view text);
 nlohmann::ordered_json parse_ordered_json(std::string_view text);  // objects keep the order of their keys
 
-// A value that is_discarded() where the text is not JSON.
+// The value of a text; is_discarded() is true if it is not JSON.
 nlohmann::json try_json(std::string_view text);
 
-// The text of a value: on one line, or with `indent` spaces for each level. A name of a file may have any bytes: those that are not UTF-8
-// become U+FFFD. Characters that steer and are not seen are escaped. A zero has no sign.
+// The text of a value: on one line, or with `indent` spaces for each level. Bytes that are not UTF-8, as file names may have, become U+FFFD.
+// Invisible control characters are escaped. Zero has no sign.
 std::string json_text(const nlohmann::json& value, int indent = -1);
 std::string json_text(const nlohmann::ordered_json& value, int indent = -1);
 

@@ -27,7 +27,7 @@ std::string json_line(const Json& content) {
   return checksum_text(text.data(), text.size()) + " " + text + "\n";
 }
 
-// Nothing where the line is not as it was written.
+// Nothing if the line was altered.
 std::optional<Json> content_of(const std::string& line) {
   const std::size_t space = line.find(' ');
   if (space == std::string::npos) return std::nullopt;
@@ -42,7 +42,7 @@ std::string head_of(const JournalKind& kind, const JournalIdentity& identity) {
   return fmt::format("{}{}\n{}", kind.start, kind.format, json_line(Json(identity)));
 }
 
-// Not as write_whole_file does: what is left of a process that was killed has a name that the next one knows.
+// Unlike write_whole_file, uses a fixed name, so that the next process finds what a killed one left.
 void write_whole(const std::string& path, const std::string& text, const char* remedy) {
   FileSet set;
   set.write(path, text, remedy);
@@ -86,7 +86,7 @@ LineJournal::LineJournal(const std::string& path, const JournalKind& kind, const
   bool is_cut = false;
   std::string line, whole = head_of(kind, identity);
   while (std::getline(file, line)) {
-    is_cut = file.eof();  // a line without its end is of a run that was killed
+    is_cut = file.eof();  // a line without its end comes from a killed run
     const auto part = content_of(line);
     if (!part || !take(*part))
       ++damaged;
@@ -96,7 +96,7 @@ LineJournal::LineJournal(const std::string& path, const JournalKind& kind, const
   file.close();
   if (!kind.keeps_damaged) write_whole(path, whole, kind.remedy_at_begin);
   open();
-  if (kind.keeps_damaged && is_cut) write("\n");  // what is added next begins a line of its own
+  if (kind.keeps_damaged && is_cut) write("\n");  // the next addition begins its own line
 }
 
 LineJournal::~LineJournal() {

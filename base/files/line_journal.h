@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The done part of a long run: a file that grows by a line with each part, so that an interrupted run resumes where it ended.
+// The finished part of a long run: a file that gains a line with each part, so that an interrupted run can resume.
 #pragma once
 
 #include <cstddef>
@@ -12,40 +12,37 @@
 
 namespace wholehand {
 
-// What must be the same for a run to go on: a name, for the message, and its value.
+// What must match for a run to resume: a name, for the message, and a value.
 using JournalIdentity = std::map<std::string, std::string>;
 
-// The name in it whose value begins with the version of the program.
+// The name whose value begins with the program's version.
 inline constexpr const char* JOURNAL_BUILD = "build of the program";
 
 struct JournalKind {
-  std::string_view start, format;                // what the first line has: a journal of what, and the version of its lines
+  std::string_view start, format;                // first line: the kind of journal and its format version
   std::string_view begun;                        // "this study was begun"
-  const char *remedy_at_begin, *remedy_of_line;  // where the file, or a line of it, cannot be written
-  const char* remedy_anew;                       // where the file is of another run: how to begin again
-  bool keeps_damaged = false;                    // in the file, where a run goes on
+  const char *remedy_at_begin, *remedy_of_line;  // message if the file or a line cannot be written
+  const char* remedy_anew;                       // message if the file is another run's: how to start again
+  bool keeps_damaged = false;                    // damaged lines stay in the file when a run resumes
 };
 
-// The first line has the kind, the second the identity, each further one a part. From the second on each has a checksum of its own
-// (XXH3, 128 bits).
+// The first line has the kind, the second the identity, each further line a part. Each line from the second on has its own checksum (XXH3, 128 bits).
 class LineJournal {
  public:
-  // Gets a part; false: it is none of this run, and counts as damaged.
+  // Receives a part. Returns false if the part is not this run's; it then counts as damaged.
   using Take = std::function<bool(const nlohmann::json&)>;
 
-  // Begins anew. Throws Error (failure) where the file cannot be written.
+  // Starts a new journal. Throws Error (failure) if the file cannot be written.
   LineJournal(const std::string& path, const JournalKind& kind, const JournalIdentity& identity);
-  // Goes on: `take` gets what is done, in the file's order, and lines that are not as they were written are counted in `damaged`.
-  // Throws Error: (usage) a version before 0.4 wrote the journal, or it is of another run, and in what; (failure) it cannot be read or written, or
-  // its head is
-  // damaged.
+  // Resumes: passes the finished parts to `take` in file order, and counts altered lines in `damaged`. Throws Error: (usage) a version before 0.4
+  // wrote the journal, or it is another run's (the message says what differs); (failure) it cannot be read or written, or its head is damaged.
   LineJournal(const std::string& path, const JournalKind& kind, const JournalIdentity& identity, const Take& take,
               std::size_t& damaged);
   ~LineJournal();
   LineJournal(const LineJournal&) = delete;
   LineJournal& operator=(const LineJournal&) = delete;
 
-  // Adds a part. Thread-safe. Throws Error (failure) where it cannot be written.
+  // Adds a part. Thread-safe. Throws Error (failure) if it cannot be written.
   void add(const nlohmann::json& part);
 
  private:

@@ -21,8 +21,8 @@ namespace wholehand {
 namespace {
 
 constexpr std::string_view HOLDER =
-    "wholehand process ";     // how the lock's file begins; then the number, " on " and the machine's name
-constexpr int ATTEMPTS = 50;  // 10 ms apart: a process that was killed a moment ago may not be gone quite
+    "wholehand process ";     // the first characters of the lock's file; then the number, " on " and the machine's name
+constexpr int ATTEMPTS = 50;  // 10 ms apart: a process that was just killed may not be quite gone
 
 enum class Taken { yes, no, retry };
 
@@ -38,7 +38,7 @@ std::string own_node() {
   return name.data();
 }
 
-// The holder that the lock's file names. A process number means nothing on another machine.
+// The holder that the lock's file names. A process number is meaningless on another machine.
 struct Holder {
   pid_t process = 0;  // 0: nobody
   std::string node;   // empty: this one
@@ -76,7 +76,7 @@ Taken try_lock(const std::string& path, int file) {
     const bool is_known = other.process > 0 && other.process != getpid() && other.node.empty();
     if (is_known && (kill(other.process, 0) == 0 || errno == EPERM)) return Taken::no;
   }
-  // its holder removed the file meanwhile: this lock is on nothing
+  // its holder removed the file meanwhile, so this lock protects nothing
   return is_at(path, file) ? Taken::yes : Taken::retry;
 }
 
@@ -88,7 +88,7 @@ OutputLock::OutputLock(const std::string& path, const char* what) : path_(path) 
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     const int error = errno;
     const bool is_read_only = file_ < 0 && (error == EACCES || error == EPERM);
-    // another user's, left behind: it can be locked all the same
+    // left behind by another user; it can still be locked
     if (is_read_only) file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     const auto refuse_foreign = [&] {
       throw usage_error(fmt::format("{}: is there and is no lock of wholehand's; move it, or name another {} with -o", path, what));
@@ -107,7 +107,7 @@ OutputLock::OutputLock(const std::string& path, const char* what) : path_(path) 
     if (taken == Taken::yes && is_read_only) return;
     if (taken == Taken::yes) {
       const std::string line = fmt::format("{}{} on {}\n", HOLDER, getpid(), own_node());
-      // a full disk leaves the lock without a name in it, and a lock all the same
+      // a full disk leaves the lock without a name, but it still locks
       if (ftruncate(file_, 0) != 0 || pwrite(file_, line.data(), line.size(), 0) < 0) errno = 0;
       return;
     }
@@ -122,7 +122,7 @@ OutputLock::OutputLock(const std::string& path, const char* what) : path_(path) 
 
 OutputLock::~OutputLock() {
   if (file_ < 0) return;
-  unlink(path_.c_str());  // while it is held: waiting processes find another file at this name
+  unlink(path_.c_str());  // while it is held, so that waiting processes find another file under this name
   close(file_);
 }
 

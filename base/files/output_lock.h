@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Who may write a result: one process at a time.
+// The right to write a result: one process at a time.
 #pragma once
 
 #include <string>
 
 namespace wholehand {
 
-// Held from before anything of a result is made or removed until it is whole or given up. The kernel releases it with the process,
-// however that ends; the file that stays then is no obstacle. Where a file system knows no locks, the process that the file names
-// decides, as long as it lives here; one on another machine is unknown here and no obstacle (see ResultFile::check_own).
+// Acquire it before making or removing any part of a result; keep it until the result is complete or abandoned. The kernel releases it when the
+// process ends; the file that remains does not block anyone. On file systems without locks, the process that the file names holds the lock while it
+// lives on this machine; a process on another machine cannot be seen and does not block (see ResultFile::check_own).
 class OutputLock {
  public:
-  // `path`: of the lock's own file, made where it is not there. `what` -o names, for messages: "file" or "folder". Throws Error:
-  // (usage) another process holds it, and which, or the file is something else; (failure) it cannot be made.
+  // `path`: the lock file, made if missing. `what`: what -o names in messages, "file" or "folder". Throws Error: (usage) another process, which the
+  // message names, holds it, or the file is something else; (failure) it cannot be made.
   explicit OutputLock(const std::string& path, const char* what = "file");
   // Removes the file.
   ~OutputLock();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as files: known as ours, and whole or not there.
+// Picture files that the program recognizes as its own, and that are either complete or absent.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace wholehand {
 
-// What every picture of ours has in it, by which it is known.
+// Every picture of ours contains this text, which identifies it.
 inline constexpr std::string_view PICTURE_MARK = "<metadata>chart of wholehand</metadata>";
 
 struct PictureFile {
@@ -16,8 +16,8 @@ struct PictureFile {
   std::string svg;
 };
 
-// Writes each of them as write_whole_file does. Returns an empty string, or why they are not all there: a sentence for the user, as
-// no result depends on its pictures. `written` gets the paths of those that are.
+// Writes each picture as write_whole_file does. Returns an empty string, or a sentence for the user that says why some are missing (no result depends
+// on its pictures). `written` gets the paths of the written ones.
 std::string write_pictures(const std::vector<PictureFile>& pictures, std::vector<std::string>* written = nullptr);
 
 }  // namespace wholehand

@@ -11,7 +11,7 @@ constexpr std::uint32_t HIDDEN = 1u << 23;  // the leading bit that a normal flo
 
 }  // namespace
 
-// A float's 24 significant bits keep their first 11; a half below 2^-14 fewer, down to multiples of 2^-24.
+// The first 11 of a float's 24 significant bits stay; below 2^-14 a half has fewer, down to multiples of 2^-24.
 std::uint16_t half_bits(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::clamp(value, -LARGEST_HALF, LARGEST_HALF));
   const std::uint32_t sign = bits >> 16 & 0x8000u;
@@ -22,7 +22,7 @@ std::uint16_t half_bits(float value) {
   std::uint32_t kept = fraction >> dropped;
   const std::uint32_t rest = fraction & ((1u << dropped) - 1), middle = 1u << (dropped - 1);
   if (rest > middle || (rest == middle && (kept & 1u) != 0)) ++kept;
-  // a carry runs on into the exponent, as it should
+  // a carry into the exponent is correct
   const std::uint32_t magnitude = exponent < -14 ? kept : kept + (static_cast<std::uint32_t>(exponent + 14) << 10);
   return static_cast<std::uint16_t>(sign | magnitude);
 }

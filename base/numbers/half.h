@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// 16-bit floats (IEEE 754 binary16): how a lattice's samples may be stored.
+// 16-bit floats (IEEE 754 binary16), in which a lattice's samples may be stored.
 #pragma once
 
 #include <bit>
@@ -10,10 +10,10 @@ namespace wholehand {
 
 constexpr float LARGEST_HALF = 65504;
 
-// The nearest half of a finite number, of two the even one; beyond the largest half that one.
+// The half nearest to a finite number; a tie goes to the even one. Larger numbers become the largest half.
 std::uint16_t half_bits(float value);
 
-// What a half stands for, exact. A quiet NaN where it is none, infinities too: half_bits makes neither.
+// The exact value of a half. Infinities and NaN give a quiet NaN; half_bits makes neither.
 inline float half_value(std::uint16_t bits) {
   const std::uint32_t sign = (bits & 0x8000u) << 16;
   const std::uint32_t exponent = bits >> 10 & 0x1Fu, fraction = bits & 0x3FFu;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of a list that come back rounded to a coarser precision.
+// Looks up values of a list after they were rounded to a coarser precision.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// The place in `listed`, which is not empty, of the value nearest to the number `value`.
+// The index in `listed`, which is not empty, of the value nearest to the number `value`.
 inline std::size_t nearest_place(const std::vector<double>& listed, double value) {
   const auto nearest = std::min_element(listed.begin(), listed.end(),
                                         [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); });

@@ -4,8 +4,8 @@
 
 namespace wholehand {
 
-// The number that a standard normal variable is below with the probability p, 0 < p < 1. To 1e-9: P. J. Acklam's rational
-// approximation and one step of Halley's method. Infinite at 0 and 1.
+// The quantile of the standard normal distribution at p, 0 < p < 1, to 1e-9: P. J. Acklam's rational approximation and one step of Halley's method.
+// Infinite at 0 and 1.
 double normal_quantile(double p);
 
 }  // namespace wholehand

@@ -28,7 +28,7 @@ void in_parallel(std::size_t count, int threads, const std::function<void(std::s
         const std::size_t so_far = ++done;
         if (is_caller && after) after(so_far);
       } catch (...) {
-        // smaller numbers than this one have all begun, so the smallest failure does not depend on who is faster
+        // all smaller numbers have begun, so the smallest failure does not depend on thread speed
         next = count;
         const std::lock_guard lock(failing);
         if (i < failed) {
@@ -43,7 +43,7 @@ void in_parallel(std::size_t count, int threads, const std::function<void(std::s
     try {
       for (std::size_t w = 1; w < std::min<std::size_t>(thread_count(threads), count); ++w) others.emplace_back(take, false);
     } catch (const std::system_error&) {
-      // the machine has no further thread: those that there are do all of it
+      // the machine has no further thread; the existing ones do all the work
     }
     take(true);
   }

@@ -7,13 +7,12 @@
 
 namespace wholehand {
 
-// `requested` threads; one for each core of the machine where that is 0.
+// `requested` threads; if that is 0, one for each core of the machine.
 int thread_count(int requested = 0);
 
-// Calls work(i) for each i below `count` on thread_count(threads) threads, or as many as the machine has, the calling one among them.
-// They take the numbers in ascending order, each the next one when it is free. `after` is called by the calling thread after each of
-// its own, with how many are done by then. What either throws ends the loop: what has begun is finished, and the failure of the
-// smallest i is thrown on.
+// Calls work(i) for each i below `count` on thread_count(threads) threads, or as many as the machine has, including the calling one. Free threads
+// take the next number in ascending order. The calling thread calls `after` after each of its own, with the number done so far. An exception from
+// either ends the loop: calls under way finish, and the exception of the smallest i is rethrown.
 void in_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                  const std::function<void(std::size_t)>& after = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers as if at random, the same on every machine.
+// Pseudo-random numbers, the same on every machine.
 #pragma once
 
 #include <cstdint>

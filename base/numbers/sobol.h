@@ -25,7 +25,7 @@ class Sobol {
   // Points first .. first + count - 1 of the sequence; first + count <= SOBOL_LARGEST_COUNT. Thread-safe.
   void points(std::uint64_t first, std::size_t count, SobolPoint* out) const;
 
-  // The unshifted sequence's integers at an index, x = value / 2^32: what the published tables list.
+  // The unshifted sequence's integers at an index, x = value / 2^32, as published tables list them.
   static std::array<std::uint32_t, SOBOL_DIMENSIONS> integers(std::uint64_t index);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether groups differ by more than their members do.
+// Tests whether groups differ by more than their members do.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@ namespace wholehand {
 
 // A one-way analysis of variance.
 struct Anova {
-  double f = 0;                    // mean square between groups over that within
-  double p = 1;                    // how likely an F as large is where all groups have one mean
+  double f = 0;                    // mean square between groups over the mean square within
+  double p = 1;                    // probability of an F at least this large if all groups have one mean
   double between = 0, within = 0;  // degrees of freedom
-  double share = 0;                // eta squared: the sum of squares between groups over all
+  double share = 0;                // eta squared: sum of squares between groups over the total
 };
 
-// One-way ANOVA of groups of values; empty groups do not count. None where fewer than two groups are left, where no group has a second
-// value, or where the values of no group differ by more than rounding (base/statistics/moments.h).
+// One-way ANOVA of groups of values; empty groups do not count. None if fewer than two groups are left, if no group has a second value, or if no
+// group's values differ by more than rounding (base/statistics/moments.h).
 std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups);
 
 }  // namespace wholehand

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Tails of distributions that tests of significance ask for.
+// Tail probabilities that significance tests need.
 #pragma once
 
 namespace wholehand {
 
-// The regularized incomplete beta function I_x(a, b), a and b > 0, x in [0, 1]: its continued fraction (Abramowitz & Stegun
-// 26.5.8) by Lentz's method; NaN of NaN. To 1e-12 of itself for a and b up to 100, and to 1e-9 up to 1e5.
+// The regularized incomplete beta function I_x(a, b), a and b > 0, x in [0, 1]: its continued fraction (Abramowitz & Stegun 26.5.8) by Lentz's
+// method. NaN gives NaN. The relative error is 1e-12 for a and b up to 100, and 1e-9 up to 1e5.
 double incomplete_beta(double a, double b, double x);
 
-// P(F > f) of Fisher's F with these degrees of freedom; NaN of NaN.
+// P(F > f) of Fisher's F with these degrees of freedom. NaN gives NaN.
 double f_tail(double f, double above, double below);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of many inputs of a model moves its answers most, from one sample that is there anyway.
+// Finds which inputs of a model affect its outputs most, from one existing sample.
 #pragma once
 
 #include <array>
@@ -26,22 +26,22 @@ namespace wholehand {
 class GivenDataIndices {
  public:
   static constexpr std::size_t BINS = 16, GROUPS = 20;
-  static constexpr std::size_t LEAST_VALUES = 10 * BINS;  // of an answer: means of fewer are mostly noise
+  static constexpr std::size_t LEAST_VALUES = 10 * BINS;  // of an output: means of fewer are mostly noise
 
   GivenDataIndices(std::size_t inputs, std::size_t outputs);
 
-  // One entry: as many inputs in [0, 1], and as many outputs. An output that is not finite is left out, and only this one.
+  // Adds one entry: that many inputs in [0, 1], and outputs. Only an output that is not finite is skipped.
   void add(std::span<const double> inputs, std::span<const double> outputs);
 
   std::size_t inputs() const { return inputs_; }
   std::size_t outputs() const { return outputs_.size(); }
 
-  // NaN where the output has fewer than LEAST_VALUES values. 0 without an interval where it does not vary by more than rounding
+  // NaN if the output has fewer than LEAST_VALUES values. 0 without an interval if the output does not vary by more than rounding
   // (base/statistics/moments.h).
   SensitivityIndex first_order(std::size_t output, std::size_t input) const;
 
  private:
-  // About the first value of the output, so that a large mean leaves the digits to the differences.
+  // Taken about the output's first value, so that a large mean does not cost digits of the differences.
   struct Sums {
     double count = 0, sum = 0;
   };

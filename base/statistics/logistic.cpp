@@ -14,14 +14,14 @@ constexpr int MOST_STEPS = 200, MOST_HALVINGS = 40;
 constexpr double SETTLED = 1e-9;           // of the longest step of an unknown
 constexpr double ROUNDING = 1e-12;         // of the log-likelihood
 constexpr double WANTED_SLOPE = 1e-6;      // of the log-likelihood: a smaller one is rounding
-constexpr double SEPARATED = 20;           // without a ridge, a coefficient beyond this, per deviation of its term, only grows on
-constexpr double DEPENDENT_PIVOT = 1e-10;  // a pivot of less than this share of its place: the unknowns depend on one another
+constexpr double SEPARATED = 20;           // without a ridge, a coefficient beyond this, per deviation of its term, grows forever
+constexpr double DEPENDENT_PIVOT = 1e-10;  // share of a diagonal entry; a smaller pivot means dependent unknowns
 
 using Unknowns = std::vector<double>;  // of the terms, and the intercept last
 using Normal = std::vector<Unknowns>;
 
-// Solves a symmetric positive system, of which the lower half is given, by Cholesky's method: `b` becomes the answer. False where the
-// system is not positive, or hardly.
+// Solves a symmetric positive system, given its lower half, by Cholesky's method: `b` becomes the answer. False if the system is not, or barely,
+// positive.
 bool solve_positive(Normal a, Unknowns& b) {
   const std::size_t n = b.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -83,7 +83,7 @@ Rows rows_of(std::span<const double> terms, std::size_t count, std::span<const c
   return rows;
 }
 
-// The log-likelihood less its ridge, its slope, and its curvature negated (the lower half), in units of the terms' deviations.
+// The log-likelihood minus its ridge, its slope, and its negated curvature (the lower half), in units of the terms' deviations.
 struct Likelihood {
   double value = 0;
   Unknowns slope;
@@ -116,7 +116,7 @@ Likelihood likelihood_at(const Rows& rows, const Unknowns& beta, double ridge) {
 // Which unknowns may move.
 using Free = std::vector<char>;
 
-// Newton's step of the unknowns that are free; none of the others. False where they depend on one another.
+// Newton's step of the free unknowns; 0 for the others. False if they depend on one another.
 bool newton_step(Likelihood here, const Free& is_free, Unknowns& step) {
   for (std::size_t k = 0; k < is_free.size(); ++k) {
     if (!is_free[k]) here.slope[k] = 0;
@@ -127,8 +127,8 @@ bool newton_step(Likelihood here, const Free& is_free, Unknowns& step) {
   return solve_positive(here.curvature, step);
 }
 
-// Goes along the step, and half as far until the likelihood is no smaller. With bounds, as far as the first coefficient that comes to 0: it
-// stays there, and is free no more. Returns whether there is such a one.
+// Takes the step, halved until the likelihood does not fall. With bounds, the step ends at the first coefficient that reaches 0, which stays there
+// and is no longer free. Returns whether there is one.
 bool take_step(const Rows& rows, double ridge, bool is_bounded, const Unknowns& step, double value, Unknowns& beta, Free& is_free) {
   double share = 1;
   std::size_t bound = beta.size();
@@ -147,7 +147,7 @@ bool take_step(const Rows& rows, double ridge, bool is_bounded, const Unknowns& 
   return false;
 }
 
-// Frees the coefficient at 0 that the likelihood wants most to grow. False: none.
+// Frees the coefficient at 0 whose growth raises the likelihood most. False: none.
 bool free_one(const Rows& rows, const Likelihood& here, Free& is_free) {
   std::size_t most = rows.terms();
   for (std::size_t k = 0; k < rows.terms(); ++k) {
@@ -158,12 +158,12 @@ bool free_one(const Rows& rows, const Likelihood& here, Free& is_free) {
   return most < rows.terms();
 }
 
-// Finds the largest likelihood. False where the steps do not settle.
+// Finds the largest likelihood. False if the steps do not converge.
 bool climb(const Rows& rows, double ridge, bool is_bounded, Unknowns& beta) {
   beta.assign(rows.terms() + 1, 0.0);
   Free is_free(beta.size(), true);
   Unknowns step;
-  // bounds would hide that terms depend on one another: the first of two like ones would get all
+  // bounds would hide that terms depend on one another: the first of two equal ones would get everything
   if (!newton_step(likelihood_at(rows, beta, ridge), is_free, step)) return false;
   if (is_bounded) std::fill(is_free.begin(), is_free.end() - 1, false);
   for (int tries = 0; tries < MOST_STEPS; ++tries) {

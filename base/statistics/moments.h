@@ -6,12 +6,12 @@
 
 namespace wholehand {
 
-// Whether values differ by more than 1e-9 of the largest one: less is rounding. False of none.
+// Whether values differ by more than 1e-9 of the largest one; less is rounding. False if there are none.
 bool varies(std::span<const double> values);
 
 // NaN of none.
 double mean_of(std::span<const double> values);
-// Over n - 1; NaN of fewer than two.
+// Over n - 1; NaN for fewer than two values.
 double deviation_of(std::span<const double> values);
 
 }  // namespace wholehand

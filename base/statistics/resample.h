@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a statistic is worth in a small sample of a large population.
+// The scatter of a statistic in small samples of a large population.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,19 @@
 
 namespace wholehand {
 
-// The values that `statistic` takes in `resamples` samples, each of `sample` members out of `population` (at least one), drawn
-// with replacement. It is given the members' numbers, and may answer NaN where a sample has no such statistic: these are left
-// out. The same seed gives the same samples on any machine.
+// The values of `statistic` in `resamples` samples, each of `sample` members out of `population` (at least one), drawn with replacement. `statistic`
+// receives the members' numbers and may return NaN if a sample has no value; such samples are left out. A seed gives the same samples on any machine.
 std::vector<double> resampled_values(std::size_t population, std::size_t sample, int resamples, std::uint64_t seed,
                                      const std::function<double(std::span<const std::size_t>)>& statistic);
 
-// From the 2.5th to the 97.5th percentile of the values that samples (at least one) have; NaN stands for a sample without a value.
-// Samples without one may well be the unusual ones. So there is no interval (NaN) unless 95 % of the samples have a value.
+// From the 2.5th to the 97.5th percentile of the values of samples (at least one); NaN stands for a sample without a value. Samples without a value
+// may be the unusual ones, so there is no interval (NaN) unless 95 % of the samples have one.
 Interval sample_interval(std::span<const double> values);
 
-// The same of each of many values: samples[k][i] is the value i of sample k.
+// The same for each of many values: samples[k][i] is value i of sample k.
 std::vector<Interval> sample_intervals(const std::vector<std::vector<double>>& samples);
 
-// The sample_interval of resampled_values. With `sample` as large as the population: the bootstrap.
+// The sample_interval of resampled_values. If `sample` is as large as the population, this is the bootstrap.
 Interval resampled_interval(std::size_t population, std::size_t sample, int resamples, std::uint64_t seed,
                             const std::function<double(std::span<const std::size_t>)>& statistic);
 

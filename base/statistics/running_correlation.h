@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The correlation of pairs that come one by one: none of them is kept.
+// The correlation of pairs that come one by one; none is stored.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@ namespace wholehand {
 // Moments of pairs by Welford's updates. The same pairs in the same order give the same bits.
 class RunningCorrelation {
  public:
-  // `least_x`: how far the first ones must lie apart to vary at all, in their unit, for numbers that have an error of their own.
+  // `least_x`: how far apart the first numbers must lie to count as varying, in their unit, for numbers with an error of their own.
   explicit RunningCorrelation(double least_x = 0) : least_x_(least_x) {}
 
   void add(double x, double y);
-  // All pairs of another one, each as if it came `weight` (above 0) times. By Chan, Golub & LeVeque 1983 (Am. Stat. 37:242).
+  // Adds all pairs of another object, each as if it came `weight` (above 0) times. By Chan, Golub & LeVeque 1983 (Am. Stat. 37:242).
   void add(const RunningCorrelation& other, double weight);
 
   std::size_t pairs() const { return pairs_; }  // whatever their weight
-  // Mean of the second numbers; NaN where there are none.
+  // Mean of the second numbers; NaN if there are none.
   double mean_y() const;
 
-  // As pearson and point_biserial of the same pairs, to rounding. For the latter each y is 0 or 1.
+  // Equal pearson and point_biserial of the same pairs, to rounding. For the latter each y is 0 or 1.
   Correlation pearson() const;
   Correlation point_biserial() const;
 

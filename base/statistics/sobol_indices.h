@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which input of a model moves its answer most.
+// Finds which input of a model affects its output most.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// The first-order index of an input: the share of the answer's variance that goes away in the mean when this input is known.
+// The first-order index of an input: the share of the output's variance that vanishes on average when this input is known.
 struct SensitivityIndex {
   double first = 0;
   Interval interval;  // of 95 %

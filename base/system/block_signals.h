@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Threads that are started while no signal reaches them: signals are the business of the threads that were there before. Only a thread's own failure
-// stays with it: while that is blocked, the system ends the process without calling a handler.
+// Starts threads that receive no signals, which the existing threads handle. A thread's own failure signals stay unblocked: if they were blocked, the
+// system would end the process without calling a handler.
 #pragma once
 
 #include <pthread.h>
@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// Blocks all signals but FAILURE_SIGNALS in the calling thread, and so in those that it starts, until it goes; also where starting one throws.
+// Blocks all signals but FAILURE_SIGNALS in the calling thread, and so in the threads it starts, until destroyed, even if starting a thread throws.
 class BlockSignals {
  public:
   BlockSignals() noexcept {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Which build of the program this is.
+// Identifies the build of the program.
 #pragma once
 
 #include <string>
 
 namespace wholehand {
 
-// The hash that the linker left in the running program, over everything in it, in hexadecimal digits; "unknown" where it left none.
+// The linker's hash of the whole running program, in hexadecimal digits; "unknown" if there is none.
 std::string build_id();
 
 }  // namespace wholehand

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The one clock: of loops, watches and everything above core/ that is timed. Waits on a condition or a queue take std::chrono's, which
-// is the same. A file of its own holds both functions, so that a simulation can link others in their place (tests/scale).
+// The one clock for loops, watches and all timing above core/. Waits on a condition or a queue use std::chrono's, which is the same clock. Both
+// functions have their own file, so that a simulation can link others (tests/scale).
 #pragma once
 
 namespace wholehand {
 
-// s since some moment; never steps. A signal handler may ask, too.
+// Seconds since some fixed moment; never steps. Safe in a signal handler.
 double monotonic_now() noexcept;
 
 // Sleeps for `seconds`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The signals by which a program fails: its own doing, and raised in the thread that did it.
+// The signals by which a program itself fails, raised in the thread that caused them.
 #pragma once
 
 #include <csignal>

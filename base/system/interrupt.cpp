@@ -9,10 +9,9 @@ namespace {
 std::atomic<bool> stop{false};
 std::atomic<bool> signal_came{false};
 std::atomic<int> number_of_first{0};
-static_assert(std::atomic<bool>::is_always_lock_free);  // or a signal handler could not set it
+static_assert(std::atomic<bool>::is_always_lock_free);  // otherwise a signal handler could not set it
 
-// Whoever starts the program may send a signal to it and to its group, so the same request comes twice: what follows this closely is no
-// second wish.
+// A signal may be sent to the program and to its group, so one request arrives twice: a signal this soon after another is not a second request.
 constexpr double SAME_REQUEST = 0.25;  // s
 
 std::atomic<double> first_came{0};
@@ -20,7 +19,7 @@ std::atomic<void (*)(int)> another{nullptr};
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<void (*)(int)>::is_always_lock_free);
 
 void on_signal(int signal) {
-  // the time goes first: another thread may take the second signal at once
+  // stored first, because another thread may take the second signal at once
   double never = 0;
   first_came.compare_exchange_strong(never, monotonic_now());
   int none = 0;

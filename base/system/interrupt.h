@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C, a terminal that closes and termination as a flag that work checks between chunks.
+// Turns Ctrl-C, a closing terminal and termination into a flag that work checks between chunks.
 #pragma once
 
 #include <csignal>
@@ -8,24 +8,24 @@
 
 namespace wholehand {
 
-// While it lives, the first SIGINT, SIGTERM or SIGHUP sets `flag()`; another one that
-// comes a quarter of a second later or more ends the process as usual, unless somebody takes it. At most one at a time.
+// While it lives, the first SIGINT, SIGTERM or SIGHUP sets `flag()`. Another one at least a quarter of a second later ends the process as usual,
+// unless an action is set. Only one may exist at a time.
 class InterruptGuard {
  public:
-  // `further`: one more signal that does the same; 0: none.
+  // `further`: one more signal with the same effect; 0: none.
   explicit InterruptGuard(int further = 0);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  // What work under way stops at: set by a signal, or by the program to end a stretch of work early.
+  // The flag at which running work stops. A signal sets it, or the program, to end a stretch of work early.
   std::atomic<bool>& flag();
-  // Takes the flag back, unless a signal has come meanwhile.
+  // Clears the flag, unless a signal has come meanwhile.
   void clear();
-  // From now on another signal is `act`'s, in the signal's handler. Null: it ends the process as usual.
+  // From now on another signal calls `act` in the signal handler. Null: it ends the process as usual.
   void on_second_signal(void (*act)(int signal));
   static bool signalled();
-  // The number of the signal that came first to the latest guard; 0: none came.
+  // The first signal's number since the latest guard began; 0: none came.
   static int signal_number();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory limit of the process, for messages: where memory is short, it is the likeliest reason.
+// The memory limit of the process, for messages: when memory is short, the limit is the likeliest reason.
 #pragma once
 
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 
 namespace wholehand {
 
-// ", and the process may use 500 MB of address space and no more (ulimit -v)"; "" where there is no such limit.
+// ", and the process may use 500 MB of address space and no more (ulimit -v)"; "" if there is no such limit.
 inline std::string memory_limit_text() {
   rlimit space{};
   if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY) return "";

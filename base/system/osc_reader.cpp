@@ -18,8 +18,7 @@ std::uint64_t big_endian(std::span<const char> bytes) {
   return bits;
 }
 
-// The text at the front, which is taken off together with its zeros up to a whole word. False: it has no end, or is followed by something else
-// than zeros.
+// The text at the front, removed with its zeros up to a whole word. False: it has no end, or something other than zeros follows.
 bool take_text(std::span<const char>& bytes, std::string_view& text) {
   const std::string_view all(bytes.data(), bytes.size());
   const std::size_t end = all.find('\0');

@@ -19,7 +19,7 @@ namespace {
 
 struct Channel {
   int descriptor;
-  std::atomic<int> failure{0};  // the errno of the first write that failed; from then on all is lost
+  std::atomic<int> failure{0};  // the errno of the first write that failed; later output is lost
 };
 
 Channel standard_output{STDOUT_FILENO}, standard_error{STDERR_FILENO};
@@ -41,14 +41,14 @@ bool write_whole(int descriptor, const char* data, std::size_t size) {
   return true;
 }
 
-// All of it is taken, whatever becomes of it: fmt would throw, and the work would end.
+// Accepts everything, whatever happens to it; otherwise fmt would throw, and the work would end.
 ssize_t take_all(void* channel, const char* data, std::size_t size) {
   Channel& to = *static_cast<Channel*>(channel);
   if (to.failure == 0 && !write_whole(to.descriptor, data, size)) to.failure = errno;
   return static_cast<ssize_t>(size);
 }
 
-// `mode`: of setvbuf. Where there is no memory for a stream, the one that was there stays.
+// `mode`: for setvbuf. Without memory for a stream, the existing one stays.
 void replace_stream(FILE*& stream, Channel& channel, int mode) {
   FILE* made = fopencookie(&channel, "w", {nullptr, take_all, nullptr, nullptr});
   if (!made) return;
@@ -65,7 +65,7 @@ void prepare_output() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) {
       const int mode = descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY;
-      [[maybe_unused]] const int opened = open("/dev/null", mode);  // nothing better is left to do where this fails
+      [[maybe_unused]] const int opened = open("/dev/null", mode);  // nothing better is possible if this fails
     }
   }
   replace_stream(stdout, standard_output, isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Standard output and standard error that never stop the work: what cannot be written is lost, and reported at the end.
+// Standard output and standard error that never stop the work: unwritable text is lost, and the loss is reported at the end.
 #pragma once
 
 #include <string>
@@ -7,25 +7,23 @@
 
 namespace wholehand {
 
-// Call first in main. Files that are opened later do not take the place of closed standard streams; a closed pipe is no signal; and `stdout` and
-// `stderr` become streams on which no write fails, so that printing code need not care. What standard error does not take is
-// lost. What standard output does not take is lost too, and finish_output() reports it.
+// Call first in main. Keeps files that are opened later from taking the place of closed standard streams, ignores SIGPIPE, and makes `stdout` and
+// `stderr` streams on which no write fails, so printing code need not check. Text that standard error refuses is lost; if standard output refuses
+// some, finish_output() reports it.
 void prepare_output();
 
-// Writes `text` to standard output at once. Here and in what follows, what steers a terminal is replaced (base/text/printable.h): only line feeds and
-// tabs
-// of `text` stay. Nothing else of the program prints, so that no name of a file or a device reaches a terminal as it is.
+// Writes `text` to standard output at once. This function and those below replace what controls a terminal (base/text/printable.h), except line feeds
+// and tabs. Nothing else in the program prints, so no file or device name reaches a terminal unfiltered.
 void print(std::string_view text);
 
-// Writes one line to standard error at once: as it is, and as a note of the program.
+// Writes one line to standard error at once: unchanged, or as a note of the program.
 void print_to_stderr(std::string_view line);
 void print_note(const std::string& line);
 
-// Whether standard output is a pipe whose reader has gone, as far as it was noticed: nobody wants to read more. Where printing is all that is
-// left to do, this is the end of it.
+// Whether the reader of a standard output pipe is known to have gone. If only printing is left to do, stop.
 bool is_output_abandoned();
 
-// Flushes. Throws Error (failure) unless everything that was printed has been written, or its reader did not want it.
+// Flushes. Throws Error (failure) unless all output was written, or its reader had gone.
 void finish_output();
 
 }  // namespace wholehand

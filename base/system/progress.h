@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of long work is done, how fast it goes and how long it takes yet: a line that moves on a terminal, lines of a log elsewhere.
+// Progress of long work, with its rate and remaining time: a moving line on a terminal, log lines elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -9,26 +9,26 @@
 
 namespace wholehand {
 
-// Shows a line on stderr over the last one, where that is a terminal; "" wipes it. For work that is not counted.
+// Shows a line on stderr in place of the last one, if stderr is a terminal; "" clears it. For work that is not counted.
 void show_status(const std::string& line);
 
-// Announces how long work takes that is not shown by a Progress yet, where that is 5 s or more: "WHAT takes about 51 s".
+// Announces the duration of work without a Progress, if it takes 5 s or more: "WHAT takes about 51 s".
 void announce_time(const std::string& what, double seconds);
 
 enum class ProgressSink {
   none,
-  terminal,  // one line that is drawn over, after half a second
-  log,       // a line every ten seconds; the first after one second, if the work takes ten seconds more
+  terminal,  // one line, redrawn in place, after half a second
+  log,       // one line every ten seconds; the first after one second, if the work takes ten seconds more
 };
 
-// terminal where stderr is one, else `otherwise`.
+// Returns terminal if stderr is one, else `otherwise`.
 ProgressSink progress_sink(ProgressSink otherwise = ProgressSink::log);
 
 // Writes to stderr.
 class Progress {
  public:
-  // `total` and `done` count what `noun` says, which must outlive it; `done` of them were there before (a resumed sweep) and say
-  // nothing about the rate. `clock` counts seconds.
+  // `total` and `done` count `noun`, which must outlive this; `done` of them existed before (a resumed sweep) and do not count for the rate. `clock`
+  // gives seconds.
   Progress(std::uint64_t total, std::uint64_t done, const char* noun, ProgressSink sink = progress_sink(),
            double (*clock)() = monotonic_now);
   ~Progress() { clear(); }
@@ -36,11 +36,11 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   std::uint64_t total() const { return total_; }
-  // Whether update may write: for those whose words take long to put together.
+  // Whether update would write, for callers whose text is slow to build.
   bool is_due() const;
-  // Draws at most ten times a second on a terminal.
+  // Redraws a terminal's line at most ten times a second.
   void update(const std::string& what, std::uint64_t done);
-  // Wipes a terminal's line, before something else is printed.
+  // Clears a terminal's line before other output.
   void clear();
 
   // "beaker2  45 %  12.3 thousand points/s  1:05 left".
@@ -52,7 +52,7 @@ class Progress {
   const char* noun_;
   ProgressSink sink_;
   double (*clock_)();
-  double start_, next_;  // s; next_: when update writes
+  double start_, next_;  // s; next_: when update writes next
   bool drawn_ = false, logged_ = false;
 };
 

@@ -154,7 +154,7 @@ std::int64_t UdpSocket::receive(std::span<char> into, UdpAddress& from) const no
   sockaddr_storage bytes{};
   socklen_t size = sizeof bytes;
   ssize_t length = -1;
-  // the whole length, also of a datagram that is longer than the room for it
+  // the whole length, even if the datagram exceeds the buffer
   do length = recvfrom(socket_, into.data(), into.size(), MSG_TRUNC, reinterpret_cast<sockaddr*>(&bytes), &size);
   while (length < 0 && errno == EINTR);
   if (length < 0) return -1;

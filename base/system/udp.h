@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// UDP: addresses as users write them, and sockets that never wait.
+// UDP: addresses as users write them, and sockets that never block.
 #pragma once
 
 #include <sys/socket.h>
@@ -16,13 +16,13 @@ struct HostPort {
 };
 constexpr int LARGEST_PORT = 65535;
 
-// Reads HOST:PORT, of HOST an IPv6 address in brackets and PORT from `least_port` to LARGEST_PORT. What is wrong with the text ("there is no
-// port"); empty: nothing.
+// Reads HOST:PORT, with an IPv6 HOST in brackets and PORT from `least_port` to LARGEST_PORT. Returns what is wrong with the text ("there is no
+// port"), or an empty string.
 std::string read_host_port(const std::string& text, int least_port, HostPort& into);
-// Reads the port alone; false: it is none.
+// Reads the port alone; returns false if the text is not a port.
 bool read_port(const std::string& text, int least_port, int& port);
 
-// Where a datagram goes to or comes from. Plain data: copies and comparisons neither allocate nor throw.
+// The source or destination of a datagram. Plain data: copies and comparisons neither allocate nor throw.
 class UdpAddress {
  public:
   UdpAddress() = default;
@@ -32,7 +32,7 @@ class UdpAddress {
   socklen_t size() const noexcept { return size_; }
   int family() const noexcept { return bytes_.ss_family; }
   int port() const noexcept;
-  // The same host's other port.
+  // Another port of the same host.
   UdpAddress with_port(int port) const noexcept;
   // 127.0.0.0/8 or ::1.
   bool is_loopback() const noexcept;
@@ -45,8 +45,8 @@ class UdpAddress {
   socklen_t size_ = 0;
 };
 
-// The address of a host. Receivers on this machine mostly listen on IPv4 alone, so of a name with both kinds it is that one. `place` begins the
-// message of the Error (failure) that is thrown where there is none.
+// The address of a host. If a name has IPv4 and IPv6 addresses, returns IPv4, since receivers on this machine mostly listen on IPv4 alone. Throws
+// Error (failure) that begins with `place` if there is none.
 UdpAddress find_udp_address(const HostPort& where, const std::string& place);
 
 // An open socket; its methods do not throw, allocate or wait.
@@ -58,17 +58,17 @@ class UdpSocket {
   UdpSocket(const UdpSocket&) = delete;
   UdpSocket& operator=(const UdpSocket&) = delete;
 
-  // Several machines may listen at an address.
+  // Allows addresses at which several machines listen.
   void allow_broadcast() noexcept;
-  // Receives at this address from now on; its port 0 is any that is free. 0, or the error's number.
+  // Receives at this address from now on; port 0 takes any free port. Returns 0, or an error number.
   int bind(const UdpAddress& address) noexcept;
   UdpAddress address() const noexcept;
 
-  // False, and errno says why: the system did not take it. Signal handlers may call it.
+  // Returns false, with errno set, if the system does not take it. Signal handlers may call it.
   bool send(std::span<const char> bytes, const UdpAddress& to) const noexcept;
-  // The next datagram: how many bytes it has, of which as many as there is room are in `into`. -1: none waits.
+  // Receives the next datagram. Returns its size; `into` gets as many of its bytes as fit. Returns -1 if none waits.
   std::int64_t receive(std::span<char> into, UdpAddress& from) const noexcept;
-  // Waits until a datagram is there, s at most. False: none is.
+  // Waits for a datagram, at most s seconds. Returns false if none came.
   bool wait(double seconds) const noexcept;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t LARGEST_NAME_COMPARED = 64;  // bytes
 constexpr std::size_t SHORTEST_BEGINNING = 2;      // bytes: of a name that is not written to its end
 
-// Levenshtein distance, row by row. A name past 64 bytes is cut: it is no slip of the keyboard.
+// Levenshtein distance, row by row. A name longer than 64 bytes is cut: it is not a typing mistake.
 std::size_t edit_distance(std::string_view name, std::string_view known) {
   name = name.substr(0, LARGEST_NAME_COMPARED);
   std::vector<std::size_t> row(known.size() + 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The name that a mistyped one may have meant.
+// Suggests the name that a mistyped one may have meant.
 #pragma once
 
 #include <span>
@@ -9,11 +9,10 @@
 
 namespace wholehand {
 
-// Name of `names` with the smallest edit distance to `name`, the first of equally near ones; "" where there are none.
+// The name with the smallest edit distance to `name`; the first in a tie; "" if there are none.
 std::string nearest_name(std::string_view name, std::span<const std::string_view> names);
 
-// " (did you mean 'sweep'?)" where a name of `names` begins with `name` or is a slip of the keyboard away from it (a third of the characters),
-// else "".
+// " (did you mean 'sweep'?)" if one of `names` begins with `name` or is a typing mistake away (a third of the characters), else "".
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> names);
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& names);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Builds text. fmt has both of these, but as templates that every file compiles anew: fmt::join costs it 0.3 s, and
-// fmt::format_to with a std::back_inserter 1.5 s, because the whole formatter comes with it (docs/results, "A bare Debian 12").
+// Builds text. fmt offers both functions, but as templates that each file compiles anew: fmt::join costs 0.3 s, and fmt::format_to with a
+// std::back_inserter 1.5 s, because it includes the whole formatter (docs/results, "A bare Debian 12").
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace wholehand {
 
-// The words one after the other, with the separator between any two. A word is a std::string, a std::string_view or a const char*.
+// Joins words, with the separator between any two. A word is a std::string, a std::string_view or a const char*.
 template <class Words>
 std::string joined(const Words& words, std::string_view separator) {
   std::string text;
@@ -23,7 +23,7 @@ std::string joined(const Words& words, std::string_view separator) {
   return text;
 }
 
-// Appends what fmt::format makes of the same arguments.
+// Appends the result of fmt::format with the same arguments.
 template <class... Args>
 void append_formatted(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
   text += fmt::vformat(format, fmt::make_format_args(args...));

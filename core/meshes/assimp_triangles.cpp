@@ -46,7 +46,7 @@ class ByteStream : public Assimp::IOStream {
   std::size_t at_ = 0;
 };
 
-// The one file that there is: materials and textures that it names are not.
+// The only file: materials and textures that it names do not exist.
 class OneFile : public Assimp::IOSystem {
  public:
   OneFile(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
@@ -60,7 +60,7 @@ class OneFile : public Assimp::IOSystem {
   std::string_view bytes_;
 };
 
-// assimp goes by what it sees in a file: without the other readers it cannot take one for something else.
+// assimp detects formats by content; without the other readers it cannot mistake a file.
 void keep_reader(Assimp::Importer& importer, const std::string& ending) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     if (importer.GetImporterInfo(i)->mFileExtensions == ending) continue;

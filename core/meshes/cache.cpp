@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Raised whenever samples, error or choice of a lattice, or the file, are made in another way: older files are then made again.
+// Increase it when samples, error or choice of a lattice, or the file format, change: older files are then made again.
 constexpr std::uint32_t LATTICE_FORMAT = 2;
 constexpr const char* LATTICE_SUFFIX = ".grid";
 constexpr const char* PARTIAL_SUFFIX = ".partial";
@@ -79,8 +79,8 @@ Digest lattice_digest(const CheckedMesh& mesh, const PreparedLattice& lattice) {
   return hash.digest();
 }
 
-// Digest of a lattice whose spacing is chosen. Where the tolerance alone decides, the lattice is the same with any memory that holds it
-// (`most_bytes` 0); else the memory is part of the request.
+// Digest of a lattice whose spacing is chosen. If the tolerance alone decides, the lattice is the same with any sufficient memory (`most_bytes` 0);
+// otherwise the memory is part of the request.
 Digest choice_digest(const CheckedMesh& mesh, const LatticeSpec& spec, int bits, std::uint64_t most_bytes) {
   Hash hash = hash_of(mesh);
   hash.add(spec.tolerance);
@@ -152,7 +152,7 @@ bool read_value(std::istream& in, T& value) {
   return static_cast<bool>(in.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
-// The lattice in a file; none where it is not there, not whole, not this one, or not what `spec` asks for.
+// The lattice in a file; none if it does not exist, is incomplete, is another one, or is not what `spec` asks for.
 std::optional<MeshLattice> load_lattice_file(const fs::path& file, const Digest& key, const MeshFacts& facts,
                                              const LatticeSpec& spec) try {
   if (!fs::is_regular_file(file)) return {};  // a pipe would be waited for
@@ -177,14 +177,14 @@ std::optional<MeshLattice> load_lattice_file(const fs::path& file, const Digest&
   return {};
 }
 
-// Where lattices are kept, and how much may be there.
+// Where lattices are kept, and the size limit.
 struct LatticeCache {
   fs::path folder;           // empty: nowhere
   std::uintmax_t limit = 0;  // bytes; 0: nothing is kept
   fs::path lattices() const { return folder / "grids"; }
 };
 
-// A new file that no other process writes; empty where none can be made.
+// A new file that no other process writes; empty if none can be made.
 std::string new_partial(const fs::path& folder, const Digest& key) {
   std::string name = (folder / (hex_of(key) + ".XXXXXX" + PARTIAL_SUFFIX)).string();
   const int file = mkstemps(name.data(), static_cast<int>(std::strlen(PARTIAL_SUFFIX)));

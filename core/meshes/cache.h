@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lattices of meshes kept between runs: one may take half a minute.
+// Caches lattices of meshes between runs, since one may take half a minute.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ namespace wholehand {
 MeshLattice cached_lattice(const CheckedMesh& mesh, const LatticeSpec& spec, const std::string& folder = "",
                            const LatticeProgress& progress = {}, const LatticeForecast& forecast = {});
 
-// 32 hexadecimal digits that are equal where the triangles and the lattice's places and bits are, and hardly anywhere else.
+// 32 hexadecimal digits, equal if the triangles and the lattice's places and bits are equal, and practically only then.
 std::string mesh_key(const CheckedMesh& mesh, const PreparedLattice& lattice);
 
 }  // namespace wholehand

@@ -24,8 +24,8 @@ struct RayFrame {
 
 namespace {
 
-// Embree's boxes and queries are in single precision. The boxes are this much larger, of the mesh's extent, than the triangles in them,
-// and the queries as much larger than the distances: what it passes over is then farther, and what it finds is computed in double.
+// Embree's boxes and queries are in single precision. The boxes are enlarged by this share of the mesh's extent, and the queries' distances as much:
+// anything that Embree skips is then farther, and anything that it finds is computed in double.
 constexpr double SINGLE_SLACK = 0x1p-21;
 constexpr double THIN = 1e-24;         // squared: of the sine of a corner
 constexpr double CLEARLY_OFF = 1e-14;  // of the squared distance: an edge seen from a point turns clearly to one side
@@ -40,8 +40,8 @@ inline double segment_distance_squared(const glm::dvec3& from, const glm::dvec3&
   return glm::dot(off, off);
 }
 
-// Squared distance to the plane where p is over the inside, else to the nearest of the sides beyond which p lies; to all three sides where
-// the triangle is so thin that its plane is rounding.
+// Squared distance to the plane if p is over the inside, else to the nearest of the sides beyond which p lies; to all three sides if the triangle is
+// so thin that its plane is rounding.
 double triangle_distance_squared(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, bc = c - b, ca = a - c, pa = p - a, pb = p - b, pc = p - c, normal = glm::cross(ca, ab);
   const double squared = glm::dot(normal, normal);
@@ -257,8 +257,8 @@ double MeshDistance::winding_number(const Triple& p) const {
   return parts_->winding->winding_number(to_vec3(p), FINE_OPENING);
 }
 
-// A ray that comes too near an edge for its crossing to be counted once for sure is given up for one in another direction. Where all
-// are, p lies on an edge, and either answer serves.
+// A ray that passes too near an edge for a certain count is replaced by one in another direction. If all do, p lies on an edge, and either answer is
+// fine.
 bool MeshDistance::is_inside(const Triple& p) const {
   if (parts_->winding) {
     const double coarse = parts_->winding->winding_number(to_vec3(p), COARSE_OPENING);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the triangles of a body meet, for whatever draws it.
+// Edges between the triangles of a body, for drawings.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 namespace wholehand {
 
 constexpr std::uint32_t NO_TRIANGLE = ~0u;
-constexpr double CREASE_ANGLE = radians(30);  // between the normals of two triangles: from there on their edge is seen
+constexpr double CREASE_ANGLE = radians(30);  // between the normals of two triangles; from this angle on, their edge is drawn
 
 struct MeshEdge {
   std::uint32_t from = 0, to = 0;  // vertices
-  // Triangles: `left` runs from `from` to `to`, `right` back. No right one where the edge is open, belongs to more than two triangles
-  // (there is then an edge for each), or to two that turn the same way.
+  // Triangles: `left` runs from `from` to `to`, `right` back. An edge has no right triangle if it is open, belongs to more than two triangles (then
+  // each has an edge), or to two that turn the same way.
   std::uint32_t left = 0, right = NO_TRIANGLE;
-  bool is_crease = false;  // it has a right one, at CREASE_ANGLE or more
+  bool is_crease = false;  // has a right triangle, at CREASE_ANGLE or more
 };
 
-// Each edge once, and the unit normal of each triangle: of one without area that of its neighbor across its longest edge, zero where that
-// has none either.
+// Each edge once, and the unit normal of each triangle. A triangle without area gets the normal of its neighbor across its longest edge, or zero if
+// that has none either.
 struct MeshEdges {
   std::vector<MeshEdge> edges;
   std::vector<Triple> normals;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh file before it is read: its bytes, and what kind they are of.
+// A mesh file before parsing: its bytes, and their format.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace wholehand {
 
-constexpr std::size_t LARGEST_MESH_FILE = 512u << 20;  // bytes, of the file and of all its buffers together
+constexpr std::size_t LARGEST_MESH_FILE = 512u << 20;  // bytes, of the file and all its buffers together
 
 enum class MeshFormat { gltf, stl, obj, ply };
 
@@ -22,14 +22,14 @@ struct MeshFile {
   [[noreturn]] void refuse_size() const;  // more than MOST_TRIANGLES, or three times as many vertices
 };
 
-// Why the file cannot be read whole, or is larger than LARGEST_MESH_FILE; empty where `bytes` is its contents.
+// Why the file cannot be read whole, or that it exceeds LARGEST_MESH_FILE; empty if `bytes` holds its contents.
 std::string read_mesh_bytes(const std::string& path, std::string& bytes);
 
 // The file's contents, at least one byte. Throws Error (usage).
 std::string mesh_bytes(const MeshFile& file);
 
-// By the first bytes and the name's ending (.glb, .gltf, .stl, .obj, .ply, in any case), which must not contradict each other; by the
-// ending alone where the bytes are of no known kind. Throws Error (usage) where neither tells, or the bytes are of another kind of file.
+// The format, by the first bytes and the name's ending (.glb, .gltf, .stl, .obj, .ply, in any case), which must not contradict each other; by the
+// ending alone if the bytes are of no known kind. Throws Error (usage) if neither tells, or the bytes are another kind of file.
 MeshFormat mesh_format(const MeshFile& file, std::string_view bytes);
 
 }  // namespace wholehand

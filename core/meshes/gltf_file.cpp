@@ -63,8 +63,8 @@ constexpr GltfField GLTF_FIELDS[]{{"asset", table, ASSET_FIELDS},       {"scene"
                                   {"bufferViews", tables, VIEW_FIELDS}, {"buffers", tables, BUFFER_FIELDS}};
 }  // namespace gltf_fields
 
-// Takes out of a parsed file the fields above, each with its type, so that tinygltf, which passes over what it does not understand and
-// cuts integers to 32 bits, understands all it is given.
+// Copies the above fields of a parsed file, each with its type, so that tinygltf, which ignores what it does not understand and cuts integers to 32
+// bits, understands everything it gets.
 class GltfTrim {
  public:
   explicit GltfTrim(const MeshFile& file) : file_(file) {}
@@ -175,8 +175,7 @@ GltfChunks chunks_of(const MeshFile& file, std::string_view bytes) {
   return {bytes, {}, false};
 }
 
-// Checks the depth before the parser: the parser's own callback for each value scans all values before it, so that a long list takes
-// the square of its length.
+// Checks the depth before parsing: the parser's own callback scans all earlier values for each value, so a long list would take quadratic time.
 void check_depth(const MeshFile& file, std::string_view text) {
   int depth = 0;
   bool is_string = false;
@@ -218,7 +217,7 @@ void refuse_version(const MeshFile& file, const GltfJson& trimmed) {
   if (least != "2.0" && least != version) file.refuse(fmt::format("needs a reader of glTF '{}', and this one reads 2.0", least));
 }
 
-// Extensions that say how things look, not where they are.
+// Extensions that define how things look, not where they are.
 bool only_looks(std::string_view name) {
   constexpr std::array<std::string_view, 6> LOOKS{"KHR_materials_", "KHR_texture_", "EXT_texture_",
                                                   "MSFT_texture_",  "KHR_lights_",  "KHR_xmp"};

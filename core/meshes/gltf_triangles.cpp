@@ -15,7 +15,7 @@
 namespace wholehand {
 namespace {
 
-constexpr std::size_t MOST_WITHOUT_BYTES = 100'000;  // of a sparse accessor on nothing: a few bytes must not become gigabytes
+constexpr std::size_t MOST_WITHOUT_BYTES = 100'000;  // of a sparse accessor without data: a few bytes must not become gigabytes
 
 template <class T>
 double value_as(const unsigned char* at) {
@@ -69,7 +69,7 @@ struct StoredElements {
   std::size_t stride = 0;
 };
 
-// Numbers out of accessors, each byte of which is known to be there.
+// Reads numbers from accessors whose bytes are all known to exist.
 class AccessorReader {
  public:
   AccessorReader(const MeshFile& file, const tinygltf::Model& model) : file_(file), model_(model) {}
@@ -257,7 +257,7 @@ class SceneWalk {
       waiting.pop_back();
       if (visit.node < 0 || static_cast<std::size_t>(visit.node) >= model_.nodes.size())
         file_.refuse(fmt::format("nodes[{}] is named and is not there", visit.node));
-      // each node has one parent in glTF: a second visit is a circle, or a branch that is there twice
+      // each node has one parent in glTF: a second visit is a cycle, or a duplicated branch
       if (seen[visit.node]) file_.refuse(fmt::format("nodes[{}] is its own ancestor, or has two parents", visit.node));
       seen[visit.node] = true;
       const tinygltf::Node& node = model_.nodes[visit.node];
@@ -278,7 +278,7 @@ class SceneWalk {
       file_.refuse(fmt::format("nodes[{}] has a skin, which is not read: apply the armature before exporting", index));
   }
 
-  // Sums what all nodes show before a vertex of it is read: a few bytes may show a mesh a million times.
+  // Sums what all nodes show before reading any vertex: a few bytes may show a mesh a million times.
   void count(const std::vector<Visit>& placed) {
     std::vector<bool> is_counted(model_.meshes.size());
     counts_.resize(model_.meshes.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a glTF file's scene to its triangles.
+// Reads the triangles of a glTF file's scene.
 #pragma once
 
 #include <string_view>
@@ -9,8 +9,8 @@
 
 namespace wholehand {
 
-// All triangles of the default scene (the first where the file names none), placed by their nodes, in the file's meters. They are
-// counted before any is read. Throws Error (usage), one line, as read_mesh does.
+// All triangles of the default scene (the first if the file names none), placed by their nodes, in the file's meters. They are counted before any is
+// read. Throws Error (usage), one line, as read_mesh does.
 TriangleMesh gltf_triangles(const MeshFile& file, std::string_view bytes);
 
 }  // namespace wholehand

@@ -37,8 +37,8 @@ constexpr double FAR_FOR_HALVES = 32;                             // m: half of 
 constexpr double TIMED_SECONDS = 0.2;                             // of a lattice's work, before its time is estimated
 constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels count in 32 bits
 
-// Random points of the surface, as many a square meter everywhere; the same ones each time. Those that lie within are left out, where
-// bodies overlap: nobody touches them, and the distance is not 0 there.
+// Random points of the surface with uniform density; the same ones each time. Where bodies overlap, interior points are left out: nobody touches
+// them, and the distance is not 0 there.
 std::vector<Triple> surface_points(const MeshDistance& distance, const TriangleMesh& mesh, int count) {
   const auto corner = [&](std::size_t triangle, int k) { return to_vec3(mesh.vertices[mesh.triangles[triangle][k]]); };
   std::vector<double> area_up_to;
@@ -205,8 +205,8 @@ PreparedLattice given_lattice(const MeshFacts& facts, const LatticeSpec& spec) {
       1e3 * least * (1 + 5 * SAME_SPACING)));
 }
 
-// One row of samples along x. What is nearest to one sample is near to the next; and where a closed surface is farther away than the
-// next sample, that one is on the same side.
+// One row of samples along x. The triangle nearest to one sample is near to the next; and if a closed surface is farther away than the next sample,
+// that sample is on the same side.
 void sample_row(const MeshDistance& distance, const PreparedLattice& lattice, int j, int k, std::vector<float>& row) {
   const bool keeps_side = distance.sign() != MeshSign::winding;
   std::uint32_t nearest = 0;
@@ -247,8 +247,8 @@ void sample_lattice(const MeshDistance& distance, PreparedLattice& lattice, int 
   lattice.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
 }
 
-// Takes rows from all over the lattice, one a thread and then twice as many each time, until they took TIMED_SECONDS or are a 32nd of all:
-// from how long that took follows how long all will take. The samples are not kept.
+// Takes rows from all over the lattice, one per thread and then twice as many each time, until they took TIMED_SECONDS or are a 32nd of all, and
+// extrapolates the total time. The samples are not kept.
 double seconds_of_rows(const MeshDistance& distance, const PreparedLattice& lattice, int threads,
                        const std::function<double()>& clock) {
   const auto now = [&] { return clock ? clock() : monotonic_now(); };

@@ -13,13 +13,13 @@ namespace wholehand {
 
 class MeshDistance;  // core/meshes/distance.h
 
-// What a lattice is to be.
+// The specification of a lattice.
 struct LatticeSpec {
   std::optional<double> spacing;  // m, > 0; absent: as wide as `tolerance` allows
-  double tolerance = 0.25e-3;     // m, for the error at the surface
-  double margin = 0;              // m beyond the mesh that the lattice reaches, and two cells more
-  // Bits of a sample, 16 or 32. Absent: 32 while the samples then take at most half of `most_bytes`, else 16; but always 32 where the mesh
-  // and its margin are 32 m or more across, as halves end at 63.97 m.
+  double tolerance = 0.25e-3;     // m, the allowed error at the surface
+  double margin = 0;              // m that the lattice extends beyond the mesh, plus two cells
+  // Bits of a sample, 16 or 32. Absent: 32 if the samples then take at most half of `most_bytes`, else 16; but always 32 if the mesh and its margin
+  // are 32 m or more across, because halves end at 63.97 m.
   std::optional<int> bits;
   // Upper limit on sample memory: what memory and the device's largest buffer allow. Uses installed, not free, memory so that the
   // lattice is reproducible.
@@ -29,33 +29,31 @@ struct LatticeSpec {
 
 struct MeshLattice {
   PreparedLattice lattice;
-  double error = 0;       // m: the largest trilinear value found at random points of the outer surface, where it should be 0
-  bool at_limit = false;  // `most_bytes` had a say in choosing the spacing: with more it would be smaller
+  double error = 0;       // m: the largest absolute trilinear value at random points of the outer surface, where it should be 0
+  bool at_limit = false;  // `most_bytes` limited the spacing: with more it would be smaller
 };
 
 constexpr int SURFACE_SAMPLES = 4096;  // points of the surface at which a lattice's error is measured
 
-// Where the samples of a lattice with this spacing (m, > 0) would lie, and in how many bits, without samples; none where it does not fit.
+// The places and bits of a lattice's samples with this spacing (m, > 0), without the samples; none if it does not fit.
 std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeSpec& spec, double spacing);
 
-// Called with the share of the work that is done, from 0 to 1, ascending, by the thread that asked for the work; 0 as long as a spacing is
-// sought. What it throws ends the work.
+// Called with the finished share of the work, 0 to 1, ascending, on the thread that requested the work; 0 while a spacing is sought. An exception
+// from it ends the work.
 using LatticeProgress = std::function<void(double share)>;
 
-// How long all of the work takes (s), where `done` of its `all` parts took `seconds`.
+// Estimates the total time (s), given that `done` of `all` parts took `seconds`.
 double forecast_seconds(std::size_t done, std::size_t all, double seconds);
 
-// How long the samples of a lattice will take, by some of its own rows that are timed first.
+// Predicts the time for the samples of a lattice by timing some of its rows first.
 struct LatticeForecast {
-  std::function<void(const PreparedLattice& lattice, double seconds)>
-      say;                        // called once, before the samples are taken; may be empty
-  std::function<double()> clock;  // s, ascending; empty: the machine's
+  std::function<void(const PreparedLattice& lattice, double seconds)> say;  // called once, before sampling; may be empty
+  std::function<double()> clock;                                            // s, ascending; empty: the machine's
 };
 
-// The lattice as core/prepare.h's prepare_lattice lays one out, but only as wide in x, y and z as the mesh is. Without a spacing the
-// widest lattice whose error, rounding to 16 bits included, stays below the tolerance, or the finest that fits `most_bytes`: then `error`
-// may be above the tolerance. With 16 bits asked for, distances beyond 63.97 m are cut to that.
-// Throws Error (usage) where a given spacing does not fit, or none does.
+// A lattice laid out as by core/prepare.h's prepare_lattice, but only as wide in x, y and z as the mesh is. Without a given spacing, it is the widest
+// lattice whose error, including rounding to 16 bits, stays below the tolerance, or the finest that fits `most_bytes`; then `error` may exceed the
+// tolerance. If 16 bits are requested, distances are clamped to 63.97 m. Throws Error (usage) if the given spacing, or any, does not fit.
 MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeSpec& spec,
                             const LatticeProgress& progress = {}, const LatticeForecast& forecast = {});
 
@@ -67,7 +65,7 @@ struct EnclosedVolume {
   bool is_empty = true;  // no sample lies inside
 };
 
-// Bodies that overlap count once, as hands feel them. `area`: of the mesh, m2.
+// Overlapping bodies count once, as hands feel them. `area`: of the mesh, m2.
 EnclosedVolume enclosed_volume(const PreparedLattice& lattice, double area);
 
 }  // namespace wholehand

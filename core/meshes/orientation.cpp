@@ -162,7 +162,7 @@ Patches find_patches(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses)
   return all;
 }
 
-// Finds what lies upon another part. Summed area vectors depend on a patch's rim alone: those of the same rim are equal, or opposite.
+// Finds duplicate surfaces. A patch's summed area vector depends only on its rim, so those of patches with the same rim are equal or opposite.
 class Doubles {
  public:
   Doubles(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses)
@@ -220,9 +220,9 @@ class Doubles {
     backs_.push_back(back);
   }
 
-  // Sheets that share edges stay or go together. Edges of an odd number of other triangles need one side of the sheet to be closed; edges of
-  // an even number are closed without it. A flat sheet that touches nothing else, such as a label, encloses nothing with one side nor with two:
-  // it stays, as one side would open a closed mesh.
+  // Sheets that share edges stay or go together. Edges with an odd number of other triangles need one side of the sheet to be closed; edges with an
+  // even number are closed without it. A flat sheet that touches nothing else, such as a label, encloses nothing with one side or two: it stays,
+  // because one side would open a closed mesh.
   void drop_backs() {
     Union joined(backs_.size());
     for_each_edge(uses_, [&](std::span<const EdgeUse> edge) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles with shared corners: what every reader of mesh files makes.
+// Triangles with shared corners, as every mesh reader makes them.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@ namespace wholehand {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-// Vessel frame (+y up), m; counter-clockwise seen from outside, as far as the file has it so.
+// Vessel frame (+y up), m; counter-clockwise seen from outside, if the file is right.
 struct TriangleMesh {
   std::vector<Triple> vertices;
   std::vector<Corners> triangles;
-  double rounding = 0;           // in the file's unit: by how much single precision may have moved a vertex
+  double rounding = 0;           // in the file's unit: the largest displacement of a vertex by single precision
   bool says_what_is_up = false;  // its format does: glTF
 };
 
 constexpr std::size_t MOST_TRIANGLES = 20'000'000;
 constexpr std::size_t MOST_MESH_VERTICES = 3 * MOST_TRIANGLES;
 
-// Whether two of a triangle's corners are in one place: it has no side, and where it lies has no say.
+// Whether two of a triangle's corners coincide: such a triangle faces nowhere, and its place does not matter.
 bool is_point_or_edge(const TriangleMesh& mesh, const Corners& triangle);
 
-// By how much single precision may have moved a point with these coordinates.
+// The largest displacement by single precision of a point with these coordinates.
 double single_rounding(const Triple& point);
 
 // One triangle's use of an edge.
@@ -38,7 +38,7 @@ struct EdgeUse {
   bool is_forward;  // runs from low to high
 };
 
-// The uses of all edges. Those of one edge are together, in the order of the triangles.
+// The uses of all edges, grouped by edge, in the order of the triangles.
 std::vector<EdgeUse> edge_uses(const std::vector<Corners>& triangles);
 
 // Calls `visit` with all uses of an edge, for each edge.

@@ -34,7 +34,7 @@ constexpr double OTHER_VOLUME = 0.05;  // of the mesh's: the lattice's volume is
 constexpr std::size_t OFF_SCALE_LATTICE = 4u << 20;   // bytes
 constexpr double LONG_WORK = 10, LONG_OPEN_WORK = 3;  // s
 
-// Share of the points between axis and wall of a cavity: so many may be on the other side than the rest, where a fillet was left out.
+// Share of the points between axis and wall of a cavity that may be on the other side than the rest, for example where a fillet was left out.
 constexpr double OTHER_SIDE = 0.05;
 // How far a cavity's wall may be from that of a hollow mesh: m, or a share of its radius if that is more. Cups are drawn with
 // rounded numbers.
@@ -70,7 +70,7 @@ CavityPoints count_cavity_points(const PreparedLattice& lattice, const std::vect
   return points;
 }
 
-// Returns what is likely wrong with the inner outline although it fits; "" for nothing.
+// Returns a likely mistake in the inner outline although it fits; "" for none.
 std::string place_cavity(const VesselData& vessel, MeshBody& body) {
   const std::vector<PreparedElement> cavity = prepare_cavity(vessel);
   double widest = 0, reach = 0;
@@ -140,8 +140,8 @@ std::string mass_text(const VesselData& vessel, const MeshBody& body) {
                                      : "; a solid object, without liquid: it has no inner_outline");
 }
 
-// Takes volume and center of mass from the mesh, or its lattice where triangles do not determine them: they cannot all face outward, a wall
-// ends within the body, or bodies overlap, so that the sum over triangles counts some parts twice. Returns the sentence that says so, else "".
+// Takes volume and center of mass from the mesh, or from its lattice if triangles do not determine them: they cannot all face outward, a wall ends
+// within the body, or bodies overlap, so that the sum over triangles counts some parts twice. Returns a sentence that says so, else "".
 std::string set_volume(const MeshFacts& facts, const std::string& name, bool has_mass, MeshBody& body) {
   body.volume = facts.volume;
   body.center_of_mass = facts.center_of_mass;
@@ -160,7 +160,7 @@ std::string set_volume(const MeshFacts& facts, const std::string& name, bool has
                      filled_text(enclosed.volume, enclosed.center), has_mass ? "" : ", or give mass_kg");
 }
 
-// What is shown while work runs, and wiped where it ends, also with an error.
+// Shows a status while work runs, and clears it at the end, even after an error.
 class StatusLine {
  public:
   explicit StatusLine(bool is_quiet) : is_quiet_(is_quiet) {}

@@ -9,18 +9,18 @@
 
 namespace wholehand {
 
-// Barill, Dickson, Schmidt, Levin and Jacobson, "Fast winding numbers for soups and clouds" (2018), with the first term of their
-// expansion: a cluster of triangles seen from afar is a dipole of its summed area vectors at its center.
+// Barill, Dickson, Schmidt, Levin and Jacobson, "Fast winding numbers for soups and clouds" (2018), with the first term of their expansion: a distant
+// cluster of triangles counts as a dipole of its summed area vectors at its center.
 class WindingTree {
  public:
   explicit WindingTree(const TriangleMesh& mesh);
-  // Clusters are opened that are nearer than `opening` times their radius; infinity: the exact sum.
+  // Opens clusters that are nearer than `opening` times their radius; infinity gives the exact sum.
   double winding_number(const glm::dvec3& p, double opening) const;
 
  private:
   struct Node {
     glm::dvec3 center{}, area{};        // mean weighted by area, m; summed area vectors, m2
-    double radius = 0;                  // around the center, of a ball that holds the triangles, m
+    double radius = 0;                  // about the center, of a ball that encloses the triangles, m
     std::uint32_t first = 0, last = 0;  // of `order_`
     std::uint32_t left = 0, right = 0;  // 0: a leaf
   };
@@ -32,7 +32,7 @@ class WindingTree {
 
   const TriangleMesh& mesh_;
   std::vector<glm::dvec3> middles_;   // of the triangles
-  std::vector<std::uint32_t> order_;  // triangles, so that each node's are together
+  std::vector<std::uint32_t> order_;  // triangles, grouped by node
   std::vector<Node> nodes_;           // the root is 0
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The words of a mesh file's text.
+// Splits the text of a mesh file into words.
 #pragma once
 
 #include <string_view>
@@ -13,7 +13,7 @@ class MeshWords {
   // Lines are counted from `line` in messages.
   MeshWords(const MeshFile& file, std::string_view text, std::size_t line = 1) : file_(file), text_(text), line_(line) {}
 
-  std::string_view next();          // over ends of lines; empty at the end of the text
+  std::string_view next();          // crosses line ends; empty at the end of the text
   std::string_view next_in_line();  // empty at the end of the line
   void skip_line();                 // to the start of the next
   bool at_end() const { return text_.empty(); }
@@ -23,7 +23,7 @@ class MeshWords {
   double number(std::string_view word) const;
   // Throws Error (usage): one line with file and line.
   [[noreturn]] void refuse(const std::string& message) const;
-  // At most so much of a word as fits a message, printable.
+  // As much of a word as fits a message, printable.
   static std::string shown(std::string_view word);
 
  private:

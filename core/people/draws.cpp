@@ -8,7 +8,7 @@
 
 namespace wholehand {
 
-// Each part of the name takes the sequence that SplitMix64 has there, so two names that differ in a part go apart for good.
+// Each part of the name selects the sequence that SplitMix64 has there, so two names that differ in a part diverge for good.
 double drawn(const DrawName& name, std::uint64_t index) {
   std::uint64_t bits = 0;
   for (const std::uint64_t part : {name.seed, name.person, name.experiment, name.grasp, index})

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Numbers as if at random that are found by counting: nothing is kept between two of them, so any of them can be had first.
+// Counter-based random numbers: no state is kept between two draws, so any of them can be drawn first.
 #pragma once
 
 #include <cstdint>
 
 namespace wholehand {
 
-// Names a stream of numbers: independent of the order of asking and of other names. A person's own has experiment 0, grasp 0.
+// Names a stream of numbers that does not depend on other names or on the order of use. A person's own stream has experiment 0, grasp 0.
 struct DrawName {
   std::uint64_t seed = 0;
   std::uint64_t person = 0;

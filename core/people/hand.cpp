@@ -35,7 +35,7 @@ constexpr std::array<Segment, SEGMENT_COUNT> SEGMENTS{{
     {15.96, 2.45, 3.73, 0.62},  // little
 }};
 
-// The variation of length among people of whom a half are women: each sex has its own variation, and the means differ.
+// The variation of length among equally many women and men: each sex has its own variation, and the means differ.
 double length_variation() {
   const Surveyed &women = hand_survey(Sex::female).length, &men = hand_survey(Sex::male).length;
   const double apart = men.mean - women.mean;
@@ -56,8 +56,8 @@ double segment_deviation(std::size_t segment) {
 HandData hand_of(const HandData& plain, const Person& person) {
   HandData hand = plain;
   hand.scale = 1;
-  // The size that the scene gave has moved the knuckles sideways. Another size undoes this, but not after the proportions: so they
-  // are always those of a hand of the default's size.
+  // The scene's hand size has moved the knuckles sideways. Another size undoes this, but not after the proportions, so these always apply to a hand
+  // of the default's size.
   set_size(hand, size_of(HandData{}));
   std::size_t at = 0;
   for (int f = 0; f < FINGER_COUNT; ++f)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who does something with their hand: one person, grasp after grasp.
+// One person who acts with their hand, grasp after grasp.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace wholehand {
 
-// Names the draws of a person's grasps: each experiment has grasps of its own.
+// Names the draws of a person's grasps; each experiment has its own.
 enum class Experiment : std::uint64_t { contacts = 0, live = 1, sessions = 2, forces = 3, advice = 4 };
 
 class Participant {
  public:
-  // The person in the middle of every trait, with the scene's own hand. All of their grasps are alike.
+  // The person in the middle of every trait, with the scene's own hand. All grasps are alike.
   explicit Participant(const PeopleData& people);
-  // Person `number` of a population. `first`: number of the first grasp, so that a second session has other grasps.
+  // Person `number` of a population. `first`: number of the first grasp, so that a second session draws other grasps.
   Participant(const PeopleData& people, std::uint64_t seed, std::uint64_t number, Experiment experiment, std::uint64_t first = 0);
 
   const Person& person() const { return person_; }
-  // The hand that the person has where the scene's is `plain`: of the median person it is `plain` itself.
+  // The person's hand if the scene's is `plain`; for the median person it is `plain` itself.
   HandData hand(const HandData& plain) const;
-  // What the person is like in grasp `k` of this experiment, counted from 0. Neither allocates nor throws.
+  // The person's traits in grasp `k` of this experiment, counted from 0. Neither allocates nor throws.
   Traits grasp(std::uint64_t k) const noexcept;
 
  private:

@@ -9,7 +9,7 @@
 namespace wholehand {
 namespace {
 
-// The normal variable with this mean and deviation of which a share `share` is below, or the log-normal one, which is above 0.
+// The normal variable with this mean and deviation at the quantile `share`, or the log-normal one, which is above 0.
 double quantile(bool is_positive, double mean, double deviation, double share) {
   const double z = normal_quantile(share);
   if (!is_positive) return mean + deviation * z;
@@ -17,8 +17,8 @@ double quantile(bool is_positive, double mean, double deviation, double share) {
   return mean * std::exp(std::sqrt(variance) * z - variance / 2);
 }
 
-constexpr double LARGEST_MARGIN = 0.9;  // of the force: more would ask for a tenfold force
-constexpr double SMALLEST_HAND = 0.5;   // of the mean: a wide scatter would ask for hands without a length
+constexpr double LARGEST_MARGIN = 0.9;  // of the force: more would demand a tenfold force
+constexpr double SMALLEST_HAND = 0.5;   // of the mean: a wide scatter would produce hands without a length
 
 double trait_of(const PeopleData& people, std::size_t k, double mean, double deviation, double share) {
   const double value = quantile(trait_facts()[k].is_positive, mean, people.scatter * deviation, share);
@@ -45,7 +45,7 @@ HandSize hand_size(const PeopleData& people, Sex sex, const Shares& shares) {
 // Crosby, Wehbe & Mawr 1994: a woman's largest grip is 81 lb in the mean and a man's 137 lb. We take a pinch to have their ratio.
 constexpr double STRENGTH_OF_WOMEN = 81.0 / 109, STRENGTH_OF_MEN = 137.0 / 109;
 
-// By the ratio of the sexes and not by their difference, so that it stays above 0 for every scatter.
+// Uses the ratio of the sexes instead of their difference, so that it stays above 0 for every scatter.
 double strength_of(const PeopleData& people, Sex sex) {
   const double both = mixed(people, STRENGTH_OF_WOMEN, STRENGTH_OF_MEN);
   return both * std::pow((sex == Sex::female ? STRENGTH_OF_WOMEN : STRENGTH_OF_MEN) / both, people.scatter);

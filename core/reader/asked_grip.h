@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A grip that a program asks for by its six numbers: what a scene file and the command line may say, it may say too.
+// A grip given by its six numbers in a program call, under the rules of scene files and the command line.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ extern const std::array<const char*, GRIP_NUMBERS> GRIP_NUMBER_UNITS;  // "m", "
 
 // The ranges of the six numbers in a scene, SI.
 struct AskedGrips {
-  // A mesh's samples reach as far as the largest hand of [grips] hand_scale needs, so its grips may not be larger.
+  // A mesh's samples reach only as far as the largest hand of [grips] hand_scale needs, so its grips may not be larger.
   explicit AskedGrips(const Scene& scene);
   std::array<double, GRIP_NUMBERS> low{}, high{};
 };
 
-// The first number that is out of its range or not finite: its place among the six. Nothing where all are allowed.
+// The index of the first number that is not finite or out of its range. Nothing if all are allowed.
 std::optional<std::size_t> grip_fault(const AskedGrips& allowed, const GripInput& grip) noexcept;
 
 // The six numbers in the order of their names.

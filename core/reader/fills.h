@@ -8,7 +8,7 @@
 
 namespace wholehand {
 
-// `volume` over `capacity`, m3. Throws Error (usage) where the vessel holds less, with `asked`: what asked for it and its place.
+// `volume` over `capacity`, m3. Throws Error (usage) if the vessel holds less, with `asked`: the request and its place.
 double fraction_of_capacity(const VesselData& vessel, double capacity, double volume, const std::string& asked);
 
 }  // namespace wholehand

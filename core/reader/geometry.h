@@ -25,22 +25,22 @@ struct PlaneCurve {
 
 PlaneCurve make_line(const Point& a, const Point& b);
 
-// The shorter way round the center; of two equal ways the one further from the axis r = 0. Nothing where two equal ways are equally
-// far from it too: a half circle with level ends.
+// The shorter way round the center; of two equal ways the one further from the axis r = 0. Nothing if both are also equally far from it: a half
+// circle with level ends.
 std::optional<PlaneCurve> make_arc(const Point& a, const Point& b, const Point& center);
 
-// The arc from a to b that passes `through`; its sweep may be more than a half turn. Nothing where the three lie on one line.
+// The arc from a to b that passes `through`; its sweep may exceed a half turn. Nothing if the three lie on one line.
 std::optional<PlaneCurve> make_arc_through(const Point& a, const Point& through, const Point& b);
 
 double distance(const Point& p, const Point& q);
 double distance(const PlaneCurve& curve, const Point& p);
 double distance(const PlaneCurve& first, const PlaneCurve& second);  // 0 where they meet
 
-// Angle turned from an arc's start to the direction of p from its center, the arc's own way round, [0, 2 pi).
+// Angle from an arc's start to the direction of p from its center, in the arc's own direction, [0, 2 pi).
 double turned_to(const PlaneCurve& arc, const Point& p);
 
-// Where the supporting lines and circles cross. A line or circle that just misses a circle counts at its nearest point, so that rounding
-// loses no touching: the caller checks the points.
+// Where the supporting lines and circles cross. A line or circle that just misses a circle counts at its nearest point, so that rounding loses no
+// touching point: the caller checks the points.
 struct Crossings {
   std::array<Point, 2> points;
   int count = 0;

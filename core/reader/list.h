@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What scene files are for, in a line each.
+// Lists scene files with their purpose, a line each.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace wholehand {
 
-// The first sentence of the comment that a scene's text begins with, on one line and without its full stop; "" where it begins with none.
+// The first sentence of a scene text's leading comment, on one line and without its full stop; "" if there is no such comment.
 std::string purpose_of_scene(std::string_view text);
 
-// A line a file: its name without .toml, the vessels of the scene, its purpose; in columns. Throws Error (usage) where a file is no scene.
+// One line per file: its name without .toml, the vessels of the scene, its purpose; in columns. Throws Error (usage) if a file is not a scene.
 std::string list_scenes(const std::vector<std::string>& files);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A new scene of one vessel, complete and commented, as TOML.
+// Writes a new scene of one vessel, complete and commented, as TOML.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ namespace wholehand {
 struct NewScene {
   std::string name;                                     // of scene and vessel
   std::string shape = "cylinder";                       // docs/scene.md, [[vessel]]
-  std::string mesh;                                     // instead of a shape: the file's path from the scene's folder
-  std::vector<std::pair<std::string, double>> numbers;  // keys of [[vessel]] with their values, in their order in the text
+  std::string mesh;                                     // replaces the shape: the file's path from the scene's folder
+  std::vector<std::pair<std::string, double>> numbers;  // keys of [[vessel]] with their values, in the order of the text
   std::optional<double> fill;                           // mL; without it, fractions of what the vessel holds
 };
 
-// A key of [[vessel]] that takes a number: its range, its comment in the text, and what it is to a user of the command.
+// A numeric key of [[vessel]]: its range, its comment in the text, and its description for users of the command.
 struct NewSceneKey {
   const char* name;
   Quantity range;
@@ -31,8 +31,8 @@ struct NewSceneKey {
 // The numbers that may be given.
 std::span<const NewSceneKey> new_scene_keys();
 
-// The text: vessel, table, liquid (not in a mesh), hand's strength, grips, tilts, deviations and output. parse_scene reads it. Throws
-// Error (usage), which names the key and what is allowed, where parse_scene would refuse it.
+// The text: vessel, table, liquid (not in a mesh), hand's strength, grips, tilts, deviations and output. parse_scene reads it. Throws Error (usage),
+// which names the key and what is allowed, if parse_scene would refuse it.
 std::string new_scene(const NewScene& wanted);
 
 }  // namespace wholehand

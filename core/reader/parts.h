@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of a scene file, one function a table. Each throws Error (usage) for what is not allowed there.
+// The parts of a scene file, one function per table. Each throws Error (usage) for what is not allowed there.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ void read_hand(const SceneTable& root, HandData& hand);
 
 // ---- vessel.cpp ----
 void read_vessels(const SceneTable& root, Scene& scene);
-// What other tables ask of vessels: [liquid] a cavity, a vessel's own liquid a [liquid].
+// What other tables require of vessels: [liquid] a cavity, a vessel's own liquid a [liquid].
 void check_vessels(const SceneTable& root, const Scene& scene);
 
 // ---- shape.cpp, outline.cpp, cavity.cpp ----
@@ -27,12 +27,11 @@ struct Silhouette {
 };
 Silhouette read_shape(const SceneTable& vessel, const std::string& shape);
 Silhouette read_outline(const SceneTable& vessel);
-// What the vessel holds: its wall and floor, or its inner outline, which lies within `silhouette`; of a mesh the latter alone,
-// unchecked.
+// What the vessel holds: its wall and floor, or its inner outline, which lies within `silhouette`; for a mesh the inner outline alone, unchecked.
 void read_cavity(const SceneTable& table, const Silhouette& silhouette, VesselData& vessel);
 
 // ---- grips.cpp ----
-// `turns`: some vessel is no body of revolution, so that without a word the azimuth goes round.
+// `turns`: some vessel is not a body of revolution, so the azimuth goes all round by default.
 void read_grips(const SceneTable& root, bool turns, GripsData& grips);
 // [liquid] has been read: `until_poured` needs it.
 void read_tilts(const SceneTable& root, Scene& scene);
@@ -41,7 +40,7 @@ void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid);
 // ---- fills.cpp ----
 // What is in a vessel in the live task.
 void read_own_liquid(const SceneTable& vessel_table, VesselData& vessel);
-// Fills that are given in mL as fractions of each vessel's capacity. Vessels and [liquid] have been read and checked.
+// Converts fills given in mL to fractions of each vessel's capacity. Vessels and [liquid] have been read and checked.
 void set_vessel_fills(const SceneTable& root, Scene& scene);
 
 // ---- force.cpp ----
@@ -57,7 +56,7 @@ void read_output(const SceneTable& root, OutputData& output);
 void read_tabletop(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TableData>& tabletop);
 
 // ---- arm.cpp ----
-// [hand] has been read: without a word the shoulder is on the side of the hand.
+// [hand] has been read: by default the shoulder is on the side of the hand.
 void read_arm(const SceneTable& root, Handedness handedness, std::optional<ArmData>& arm);
 
 // ---- robust.cpp ----

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a scene file or a command line may say: the range of every quantity, in the unit of its key. The ranges are wide: they keep
-// out slips (a length in meters, an angle in radians by the hundred) and what the kernels have no meaning for, not unusual scenes.
-// docs/scene.md lists them beside the keys.
+// The range of every quantity in a scene file or on a command line, in the unit of its key. Wide ranges catch slips (a length in meters, an angle in
+// radians by the hundred) and values that the kernels cannot handle, not unusual scenes. docs/scene.md lists them beside the keys.
 #pragma once
 
 #include <cstddef>

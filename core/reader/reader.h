@@ -9,11 +9,11 @@
 
 namespace wholehand {
 
-// The scene that `text` (TOML, at most 1 MiB) describes; `name` stands for it in messages and in Scene::file. Throws Error (usage) for
-// whatever is not allowed, in one line: `name:line:column: what was found; what is allowed`. Nothing else is thrown, whatever the text.
+// The scene that `text` (TOML, at most 1 MiB) describes; `name` stands for it in messages and in Scene::file. Throws Error (usage) for anything not
+// allowed, in one line: `name:line:column: what was found; what is allowed`. Throws nothing else, whatever the text.
 Scene parse_scene(std::string_view text, const std::string& name);
 
-// The same from a file. Throws Error (usage) too where it is missing, unreadable or larger than 1 MiB.
+// The same from a file. Also throws Error (usage) if it is missing, unreadable or larger than 1 MiB.
 Scene read_scene_file(const std::string& path);
 
 }  // namespace wholehand

@@ -76,8 +76,8 @@ class Scanner {
     }
   }
 
-  // A string, array or inline table begins behind a space, a bracket, a comma, an = or, as part of a key, a dot. Behind anything else
-  // (9"a") the parser would go on with what it has begun, and not see a string in it.
+  // A string, array or inline table begins after a space, a bracket, a comma, an = or, as part of a key, a dot. After anything else (9"a") the parser
+  // would continue what it has begun, and not see a string there.
   void check_beginning(char c) const {
     const char before = at_ == 0 ? '\n' : text_[at_ - 1];
     const bool is_apart =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scans a scene file's text before the TOML parser reads it, for what toml++ 3.3 wrongly accepts or does not survive.
+// Scans a scene file's text before the TOML parser reads it, for input that toml++ 3.3 wrongly accepts or crashes on.
 #pragma once
 
 #include <string_view>

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The program, the shared library or the Python module that this code is part of. Empty where the system does not say.
+// The program, the shared library or the Python module that contains this code. Empty if the system does not say.
 fs::path file_of_this_code() {
   std::error_code failed;
   Dl_info info;
@@ -30,8 +30,8 @@ fs::path file_of_this_code() {
   return failed ? fs::path() : file;
 }
 
-// Above which folder share/ is, for a file of this code in `folder`: only where packages put one. Whatever else lies somewhere above
-// is nobody's share/. Empty: it is in no such place.
+// The folder whose share/ belongs to a file of this code in `folder`; only in places where packages put one. A share/ further up belongs to nobody.
+// Empty: it is in no such place.
 fs::path prefix_of(const fs::path& folder) {
   const fs::path above = folder.parent_path(), second = above.parent_path(), third = second.parent_path();
   if (folder.filename() == "bin" || folder.filename() == "lib") return above;

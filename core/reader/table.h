@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checked access to the tables of a scene file: every key is known, of the right type and in its range, or the file is refused with
-// one line that says where, what was found and what is allowed.
+// Checked access to the tables of a scene file: every key is known, of the right type and in its range. Otherwise one line refuses the file, with the
+// place, what was found and what is allowed.
 #pragma once
 
 #include <toml++/toml.h>
@@ -25,7 +25,7 @@ struct Place {
   int column = 1;
 };
 
-// The file that is being read, for messages.
+// The file being read, for messages.
 class SceneFile {
  public:
   explicit SceneFile(std::string_view name);
@@ -33,7 +33,7 @@ class SceneFile {
   // Throws Error (usage): `name:line:column: found; allowed`.
   [[noreturn]] void refuse(Place place, const std::string& found, const std::string& allowed) const;
 
-  // `name:line:column`, for what is refused after reading.
+  // `name:line:column`, for checks after reading.
   std::string text_of(Place place) const;
 
  private:
@@ -43,7 +43,7 @@ class SceneFile {
 // Where a node of the file begins.
 Place place_of(const toml::node& node);
 
-// What a node is, for messages: `= 5`, `= 'text'`, `is an array`.
+// Describes a node for messages: `= 5`, `= 'text'`, `is an array`.
 std::string found(const toml::node& node);
 
 // A finite number in its range, in SI. `what` names it in messages.
@@ -53,7 +53,7 @@ double read_number(const SceneFile& file, const toml::node& node, const std::str
 void read_numbers(const SceneFile& file, const toml::node& node, const std::string& what, const std::string& form,
                   const Quantity& quantity, std::span<double> values);
 
-// One table with the keys that it may have. Keeps references to the file and the parsed table.
+// One table with its allowed keys. Keeps references to the file and the parsed table.
 class SceneTable {
  public:
   // `title` names the table in messages, e.g. "[hand]". Throws Error (usage) for the first key of the file that is not in `keys`.
@@ -62,7 +62,7 @@ class SceneTable {
   const SceneFile& file() const { return file_; }
   const std::string& title() const { return title_; }
   Place place() const { return place_of(table_); }
-  Place place(std::string_view key) const;  // of the key's value; the table's where it is absent
+  Place place(std::string_view key) const;  // of the key's value; of the table if it is absent
 
   // The key's value, or null. The key must be one of the table's.
   const toml::node* find(std::string_view key) const;
@@ -71,7 +71,7 @@ class SceneTable {
   // Throws Error (usage) unless the key is there.
   const toml::node& need(std::string_view key, const std::string& allowed) const;
 
-  // Each leaves `value` as it is where the key is absent.
+  // Each leaves `value` unchanged if the key is absent.
   void read(std::string_view key, const Quantity& quantity, double& value) const;
   void read(std::string_view key, const Quantity& quantity, const std::string& form, std::span<double> values) const;
   void read(std::string_view key, IntegerRange range, std::int64_t& value) const;
@@ -81,7 +81,7 @@ class SceneTable {
   void read_path(std::string_view key, std::string& value) const;
   void read_name(std::string_view key, std::string& value) const;
 
-  // Each throws Error (usage) where the key is absent.
+  // Each throws Error (usage) if the key is absent.
   void need(std::string_view key, const Quantity& quantity, double& value) const;
   void need(std::string_view key, const Quantity& quantity, const std::string& form, std::span<double> values) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names and texts from outside, for messages.
+// Prepares names and texts from outside for messages.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Advice to a hand in a session: how it would hold the vessel from where it is, and which grip within its reach would be better.
+// Advice to a hand in a session: how it would hold the vessel from its present place, and which grip within reach would be better.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,25 @@
 
 namespace wholehand {
 
-// A grip of a vessel with its present liquid, over all tilts until it is poured. By the core in double precision, whatever
-// found it.
+// A grip of a vessel with its present liquid, over all tilts until it is poured. Rated by the core in double precision, whatever found it.
 struct RatedGrip {
   GripInput grip;            // vessel frame, in the world of the scene
-  bool is_possible = false;  // feasible, and plausible where it is advised; else what follows has no meaning
-  double effort = 0;         // the worst, a share of the hand's strength; infinite: at some tilt no force holds it
-  double tilt = 0;           // at which it is the worst, rad
+  bool is_possible = false;  // feasible, and if advised also plausible; else the members below have no meaning
+  double effort = 0;         // the worst, as a share of the hand's strength; infinite: at some tilt no force holds it
+  double tilt = 0;           // tilt of the worst effort, rad
 };
 
 struct Advice {
-  std::int64_t tick = 0;  // of the moment that was asked about
-  int vessel = -1;        // -1: no vessel is near, and nothing else has a meaning
+  std::int64_t tick = 0;  // of the moment in question
+  int vessel = -1;        // -1: no vessel is near, and the other members have no meaning
   bool is_held = false;
   Handedness handedness = Handedness::right;  // of the hand
   Rotation rotation{NO_ROTATION};             // of the vessel, to the world
-  double volume = 0;                          // m3 of liquid in it, with which the grips were rated
+  double volume = 0;                          // m3 of liquid in it when the grips were rated
   RatedGrip present;                          // the grip that the hand would have, or has
   std::optional<RatedGrip> best;              // absent: no grip within reach is possible
   GripResult posed;                           // of the best one, vessel frame
-  bool is_better = false;           // the best one takes clearly less effort than the present one, or this is not possible
+  bool is_better = false;           // the best one takes clearly less effort than the present one, or the latter is not possible
   std::optional<TiltsAhead> ahead;  // of a held vessel
   std::uint64_t grips = 0;          // that were asked for
 };

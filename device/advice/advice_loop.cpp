@@ -20,7 +20,7 @@
 
 namespace wholehand {
 
-// What the thread and its owner share. The thread keeps it alive where a device that hangs is left behind.
+// Shared by the thread and its owner. The thread keeps it alive if a hanging device is abandoned.
 struct AdviceLoop::Shared {
   Shared(const Scene& scene, bool is_followed_in, double patience_in)
       : live(scene), is_followed(is_followed_in), patience(patience_in), tracker(live.scene) {}
@@ -47,21 +47,21 @@ struct AdviceLoop::Shared {
   std::shared_ptr<const Advice> newest;
   std::vector<std::string> warnings;
   AdviceTally tally;
-  double last = 0;                // when the update before was there, s; 0: it was about no vessel
-  double asked = 0;               // since when an update is under way, s; 0: none is
+  double last = 0;                // when the previous update was finished, s; 0: it concerned no vessel
+  double asked = 0;               // start of the current update, s; 0: none
   bool is_late_reported = false;  // that one is late
 };
 
 namespace {
 
-// Lowers the priority of this thread and of the threads that it starts, those of the device too.
+// Lowers the priority of this thread and of the threads that it starts, including the device's.
 void take_back_seat() {
-  // a thread's id is what Linux takes here; where it may not be lowered the advice goes on as it is
+  // Linux takes a thread's id here; if the priority may not be lowered, the advice continues unchanged
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + ADVICE_NICENESS);
 }
 
-// As many grips as fit a part of the time of an update at LEAST_ADVICE_RATE. At most ADVICE_RATE updates a second leave a fifth of the time for
-// what else runs on the machine, with the same priority too.
+// As many grips as fit a part of the time of an update at LEAST_ADVICE_RATE. At most ADVICE_RATE updates a second leave a fifth of the time for the
+// machine's other work of the same priority.
 std::size_t next_cloud(std::size_t grips, double seconds) {
   const double fits = static_cast<double>(grips) * 0.4 / (LEAST_ADVICE_RATE * std::max(seconds, 1e-6));
   return static_cast<std::size_t>(std::clamp(fits, std::max<double>(LEAST_CLOUD, 0.5 * static_cast<double>(grips)),
@@ -83,7 +83,7 @@ void AdviceLoop::Shared::run(std::promise<void>& opened, const AdviserOpener& op
   }
 }
 
-// None where it cannot be opened; `opened` then carries the reason.
+// None if it cannot be opened; `opened` then carries the reason.
 std::unique_ptr<Adviser> AdviceLoop::Shared::open_adviser(std::promise<void>& opened, const AdviserOpener& open) {
   try {
     std::unique_ptr<Adviser> adviser = open(live.scene);
@@ -99,7 +99,7 @@ std::unique_ptr<Adviser> AdviceLoop::Shared::open_adviser(std::promise<void>& op
   }
 }
 
-// An update for each moment, until it is to end.
+// Computes an update for each moment, until it must end.
 void AdviceLoop::Shared::go_on(Adviser& adviser) {
   Tick moment;
   VesselPoses poses;

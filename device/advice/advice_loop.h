@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The advice of a session that has a clock: a thread of its own, which the haptic thread knows nothing of.
+// The advice of a session with a clock. It runs on its own thread, independent of the haptic thread.
 #pragma once
 
 #include <cstdint>
@@ -16,47 +16,47 @@
 namespace wholehand {
 
 constexpr double ADVICE_RATE = 10;       // Hz at most
-constexpr double LEAST_ADVICE_RATE = 5;  // Hz: clouds become smaller where an update takes longer than its share of the time
-constexpr double ANSWER_PATIENCE = 1;    // s: an update that takes longer is late, and the advice before it too old
-constexpr int ADVICE_NICENESS = 10;      // of its threads beside those of the loop
+constexpr double LEAST_ADVICE_RATE = 5;  // Hz: clouds shrink if an update takes longer than its share of the time
+constexpr double ANSWER_PATIENCE = 1;    // s: a longer update is late, and the previous advice is then too old
+constexpr int ADVICE_NICENESS = 10;      // its threads, besides those of the loop
 
 // The advice in a session's report.
 struct AdviceTally {
   std::string place;            // what it is computed on
   std::uint64_t updates = 0;    // with a vessel near
   std::uint64_t grips = 0;      // asked for in them
-  double longest = 0;           // s between two such updates that follow one another
-  double seconds = 0;           // s of such updates, from one to the next
-  std::uint64_t intervals = 0;  // number of times from one to the next
+  double longest = 0;           // s between two consecutive such updates
+  double seconds = 0;           // total of these, s
+  std::uint64_t intervals = 0;  // number of intervals
 
   double rate() const { return seconds > 0 ? static_cast<double>(intervals) / seconds : 0; }  // updates a second
 };
 
 class AdviceLoop {
  public:
-  // Opens the device in a thread of lower priority, and returns when it is open: before the session starts, as pipelines take
-  // seconds. Throws Error as Adviser does. Later faults end the advice, and not the session. `is_followed`: by a simulated user,
-  // to whom shown() gives the grips.
+  // Opens the device on a thread of lower priority, and returns when it is open. Construct it before the session starts, because pipelines take
+  // seconds. Throws Error as Adviser does. Later faults end the advice, not the session. `is_followed`: a simulated user follows it, and gets the
+  // grips through shown().
   AdviceLoop(const Scene& scene, const std::string& on, int threads, bool is_followed = false);
-  // With an adviser of one's own, which is made in the thread. `patience`: s that an update may take.
+  // With a custom adviser, which is made on the thread. `patience`: s that an update may take.
   using AdviserOpener = std::function<std::unique_ptr<Adviser>(const Scene&)>;
   AdviceLoop(const Scene& scene, AdviserOpener open, bool is_followed = false, double patience = ANSWER_PATIENCE);
-  // Stops. A device that does not answer within STOP_PATIENCE is left behind with its thread.
+  // Stops. A device that does not answer within STOP_PATIENCE is abandoned with its thread.
   ~AdviceLoop();
   AdviceLoop(const AdviceLoop&) = delete;
   AdviceLoop& operator=(const AdviceLoop&) = delete;
 
-  // Ticks in their order, all of them, from one thread. Waits for nothing but what is copied.
+  // Takes all ticks in order, from one thread. Only copies; never waits.
   void look(std::span<const Tick> ticks);
-  // The newest advice; from any thread. Nothing before the first, while an update takes longer than the patience, and once
-  // there is none any more. The same object until the next.
+  // The newest advice; from any thread. Nothing before the first, while an update exceeds the patience, and after the advice has ended. The same
+  // object until the next.
   std::shared_ptr<const Advice> newest() const;
-  // Lines that the user must see, each once; from any thread: the device failed, and the advice has ended or goes on; or it does
-  // not answer.
+  // Lines that the user must see, each once; from any thread: the device failed, and the advice has ended or continues; or the device does not
+  // answer.
   std::vector<std::string> take_warnings();
   // For the haptic thread.
   ShownGripSource& shown();
-  // What it is computed on, as Adviser::place.
+  // What it computes on, as Adviser::place.
   std::string place() const;
   AdviceTally tally() const;
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t RATED_BY_CORE = 8;  // of a cloud
 constexpr double WIDEST_SHARE = 0.5, NARROWEST_SHARE = 0.05, NARROWING = 0.7;
-constexpr double MOVED = 0.1;  // sizes of the reach: a best grip so far from the last one is another one
+constexpr double MOVED = 0.1;  // sizes of the reach: a best grip this far from the last one counts as another
 constexpr double POURED_OUT = 1 - LEFT_AS_EMPTY;
 
 double like(double effort) { return effort * (1 + LIKE_SHARE) + LIKE_EFFORT; }
@@ -28,7 +28,7 @@ double fill_of(const VesselData& vessel, double volume, double capacity) {
   return vessel.has_cavity() && capacity > 0 ? std::clamp(volume / capacity, 0.0, 1.0) : 0;
 }
 
-// Among the rated grips that are as good as the best of them, the one with the shortest way to it.
+// Among the rated grips that are as good as the best of them, the one with the shortest way.
 const RatedGrip* nearest_of_best(const std::vector<RatedGrip>& rated, const GripInput& from) {
   double least = std::numeric_limits<double>::infinity();
   for (const RatedGrip& one : rated)
@@ -82,7 +82,7 @@ Adviser::Adviser(const Scene& scene, const BackendOpener& open)
   warm_up();
 }
 
-// The first question takes as long as the next ones: buffers are there, and a driver has compiled what it left for the first dispatch.
+// The first question takes as long as later ones: buffers exist, and a driver has compiled what it left for the first dispatch.
 void Adviser::warm_up() {
   if (info().backend == "core") return;
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
@@ -96,8 +96,8 @@ std::string Adviser::place() const { return info().backend == "core" ? info().de
 
 std::vector<std::string> Adviser::notes() { return std::exchange(notes_, {}); }
 
-// The device's pipelines stay: only its tables of liquid and states are made anew. Where it does not take them, its grips and
-// those of the core would be of different liquids.
+// The device's pipelines stay; only its tables of liquid and states are remade. If it does not accept them, its grips would use a different liquid
+// from the core's.
 void Adviser::take_volume(int vessel, double volume) {
   const auto v = static_cast<std::size_t>(vessel);
   if (!scene_.liquid || std::abs(volume - volumes_[v]) <= SAME_FILL * capacities_[v]) return;
@@ -176,8 +176,8 @@ RatedGrip Adviser::rate_present(const GripInput& grip) {
   return rate(*session_, vessel_, grip, false);
 }
 
-// By the core: the best one, and of those that are as good by the device the nearest ones. Near is what is near to the present grip
-// that has come in: from beside the vessel the way in would count for more than all else.
+// By the core: the best one, and the nearest ones of those that the device finds equally good. Nearness is measured from the present grip moved in,
+// because from beside the vessel the way in would outweigh everything else.
 std::vector<RatedGrip> Adviser::rate_best(const GripInput& present, const std::vector<GripInput>& cloud,
                                           std::vector<Found> found) const {
   std::vector<RatedGrip> rated;
@@ -194,8 +194,7 @@ std::vector<RatedGrip> Adviser::rate_best(const GripInput& present, const std::v
   return rated;
 }
 
-// The last answer stands while it is as good as the best of now; a present grip that is as good, or the only one,
-// needs no advice.
+// The last answer stays while it is as good as the present best; a present grip that is as good, or the only one, needs no advice.
 void Adviser::choose(const std::vector<RatedGrip>& rated, Advice& advice) const {
   const RatedGrip* found = nearest_of_best(rated, advice.present.grip);
   if (!found && !advice.present.is_possible) return;
@@ -212,13 +211,13 @@ void Adviser::choose(const std::vector<RatedGrip>& rated, Advice& advice) const 
   core_->grip(static_cast<std::size_t>(vessel_), advice.best->grip, advice.posed);
 }
 
-// The longer the best one stays, the closer about it the next updates look.
+// The longer the best one stays, the closer to it the next updates search.
 void Adviser::settle(bool has_moved) { share_ = has_moved ? WIDEST_SHARE : std::max(NARROWEST_SHARE, share_ * NARROWING); }
 
 Advice Adviser::advise(const AdviceQuestion& question, std::size_t grips, const std::atomic<bool>* stop) {
   take_volume(question.vessel, question.volume);
   const Reach reach = reach_of(scene_.vessels[static_cast<std::size_t>(question.vessel)], question.grip, question.keeps_line);
-  // where the azimuth changes nothing the hand turns as it likes, and the last answer with it
+  // if the azimuth changes nothing the hand turns freely, and the last answer with it
   if (last_) last_ = reach.with_kept(*last_);
   if (question.vessel != vessel_ || (last_ && !reach.has(*last_))) last_.reset();
   vessel_ = question.vessel;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grips that are asked about: points about where the hand is, and about the best one so far.
+// The grips to evaluate: points around the hand's present place, and around the best one so far.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// How far from the present grip one may lie that is advised: more is no longer a correction of a hand that is under way (ours).
+// How far from the present grip an advised one may lie: more would not be a correction of a moving hand (ours).
 constexpr double REACH_HEIGHT = 40e-3, MOST_OFFSET = 10e-3;  // m; the offset is from the axis, not from the present one
 constexpr double REACH_AZIMUTH = radians(30), REACH_OBLIQUITY = radians(20), REACH_ROLL = radians(40);
 
@@ -19,24 +19,22 @@ constexpr double REACH_AZIMUTH = radians(30), REACH_OBLIQUITY = radians(20), REA
 struct Reach {
   GripInput low, high;
   bool has(const GripInput& grip) const;
-  // `grip` with the azimuth and the offset of this reach where it leaves only one.
+  // `grip` with this reach's azimuth and offset, where the reach leaves only one.
   GripInput with_kept(GripInput grip) const;
 };
 
-// About `present` on a vessel. Heights stay on the vessel. The azimuth stays where it changes nothing: on a body of revolution
-// whose center of mass lies on its axis. The hand is the person's own: its scale stays. `keeps_line`: azimuth and an offset of 0
-// stay, too.
+// The reach about `present` on a vessel. Heights stay on the vessel. The azimuth stays if it changes nothing: on a body of revolution whose center of
+// mass lies on its axis. The hand keeps its own scale. `keeps_line`: azimuth and an offset of 0 stay, too.
 Reach reach_of(const VesselData& vessel, const GripInput& present, bool keeps_line = false);
 
-// `present` with its line brought as near to the axis as the reach goes: the hand that is beside a vessel as if it had come in.
+// `present` with its line brought as near to the axis as the reach allows, as if a hand beside the vessel had moved in.
 GripInput come_in(const GripInput& present);
 
-// How far b lies from a, in sizes of the reach: 0 to about 1.
+// The distance from a to b, in sizes of the reach: 0 to about 1.
 double way_between(const GripInput& a, const GripInput& b);
 
-// `count` grips of the reach: Sobol points, shifted by `turn`, so that each update asks about others, and the same turn asks the
-// same. Half of them lie in a box of `share` of the reach about `best` where there is one; all stay within the reach. The first is
-// the present one, come in.
+// `count` grips of the reach: Sobol points shifted by `turn`, so that each update evaluates others, and one turn always gives the same. Half of them
+// lie in a box of `share` of the reach about `best`, if there is one; all stay within the reach. The first is the present one, moved in.
 std::vector<GripInput> grip_cloud(const Reach& reach, const GripInput& present, const std::optional<GripInput>& best, double share,
                                   std::uint64_t turn, std::size_t count);
 

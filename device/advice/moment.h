@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a moment of a session to its advice, and from that to what a simulated user can follow.
+// Computes advice from a moment of a session, and from the advice what a simulated user can follow.
 #pragma once
 
 #include <atomic>
@@ -11,12 +11,12 @@
 
 namespace wholehand {
 
-// Advice at the moment of a tick, with the vessels at `poses`. Asks for nothing where no vessel is near. The efforts of a held grip at
-// tilts ahead are those of the posture that the session keeps. `keeps_line` as in an AdviceQuestion. Throws as Adviser::advise.
+// Advice for the moment of a tick, with the vessels at `poses`. Evaluates nothing if no vessel is near. Efforts of a held grip at tilts ahead use the
+// posture that the session keeps. `keeps_line` as in an AdviceQuestion. Throws as Adviser::advise.
 Advice advice_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses, Adviser& adviser, std::size_t grips,
                  bool keeps_line = false, const std::atomic<bool>* stop = nullptr);
 
-// The best grip, where it is better than the present one and the vessel is not held; else no grip (vessel -1).
+// The best grip, if it is better than the present one and the vessel is not held; else no grip (vessel -1).
 ShownGrip shown_grip(const Scene& scene, const Advice& advice, const Adviser& adviser);
 
 }  // namespace wholehand

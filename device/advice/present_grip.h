@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grip that a hand would have if it closed where it is: from what a session knows of it to the six numbers of a grip.
+// The grip that a hand would have if it closed now: converts a session's state to the six numbers of a grip.
 #pragma once
 
 #include <array>
@@ -12,20 +12,19 @@
 
 namespace wholehand {
 
-// The grip of two tips (thumb, index) and a gripper's axes, in the vessel's frame and the world of the right hand. Absent where the line
-// of the tips runs along the vessel's axis.
+// The grip of two tips (thumb, index) and a gripper's axes, in the vessel's frame and the world of the right hand. Absent if the line of the tips
+// runs along the vessel's axis.
 std::optional<GripInput> grip_of_tips(const std::array<core_f64::Vec3, 2>& tips, const core_f64::Mat3& axes);
 
-// The vessel that a hand is about, and how the hand stands to it.
+// The vessel near the hand, and the hand's pose relative to it.
 struct Approach {
   int vessel = -1;
   bool is_held = false;
   GripInput grip;  // in the world of the scene; of the scene's own hand
 };
 
-// The approach to the vessel that is touched or held, else to the nearest one with both tips no further than NEAR_VESSEL from its surface.
-// Absent where there is none, where the line of the tips passes further over or under it than grips reach, where a session is
-// over, or where a vessel returns to where it stood.
+// The approach to the touched or held vessel, else to the nearest one with both tips within NEAR_VESSEL of its surface. Absent if there is none, if
+// the line of the tips passes further above or below it than grips reach, if the session is over, or while a vessel returns to its place.
 std::optional<Approach> approach_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses);
 
 constexpr double NEAR_VESSEL = 0.2;  // m

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The advice of a session without a clock: in step with its ticks, so that the same session has the same advice.
+// The advice of a session without a clock, in step with its ticks, so that a repeated session gets the same advice.
 #pragma once
 
 #include <memory>
@@ -10,27 +10,27 @@
 
 namespace wholehand {
 
-// Every 1 / LEAST_ADVICE_RATE s of the session's time about the moment of that tick, with STEP_CLOUD grips. It is there with the
-// next such tick: it has taken that long, whatever it took.
+// Every 1 / LEAST_ADVICE_RATE s of session time, computes advice for that tick with STEP_CLOUD grips. The advice appears at the next such tick: it
+// counts as having taken that long.
 class SteppedAdvice final : public ShownGripSource {
  public:
   struct Options {
     int threads = 0;          // of the core; 0: all
-    bool while_held = true;   // also about a vessel that is held
+    bool while_held = true;   // also about a held vessel
     bool keeps_line = false;  // as an AdviceQuestion
     std::size_t grips = STEP_CLOUD;
   };
   // Opens the device; throws Error as Adviser and LiveScene do.
   SteppedAdvice(const Scene& scene, const std::string& on, const Options& options);
-  // With an adviser of one's own.
+  // With a custom adviser.
   SteppedAdvice(const Scene& scene, const AdviceLoop::AdviserOpener& open, const Options& options);
 
-  // Every tick of the session in its order, from the thread of its loop, which waits. A device that fails ends the advice.
+  // Takes all ticks in order on the loop's thread, which waits. A device that fails ends the advice.
   void look(const Tick& tick) noexcept;
   // For the same thread.
   bool take(std::int64_t tick, ShownGrip& grip) noexcept override;
 
-  // From any thread, as those of AdviceLoop. The tally has no times.
+  // Callable from any thread, like those of AdviceLoop. The tally has no times.
   std::shared_ptr<const Advice> newest() const;
   std::vector<std::string> take_warnings();
   AdviceTally tally() const;
@@ -40,11 +40,11 @@ class SteppedAdvice final : public ShownGripSource {
 
   const LiveScene live_;
   Options options_;
-  std::unique_ptr<Adviser> adviser_;  // none any more where it failed
+  std::unique_ptr<Adviser> adviser_;  // none after a failure
   VesselTracker tracker_;
   std::int64_t period_;  // ticks
   std::int64_t due_ = 0;
-  std::shared_ptr<const Advice> coming_;  // there at the next moment
+  std::shared_ptr<const Advice> coming_;  // shown at the next moment
   ShownGrip coming_grip_, grip_;
   bool is_grip_new_ = false;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Force Dimension's SDK, loaded at run time where it is installed: building, and running without such a device, need nothing of the vendor.
+// Loads Force Dimension's SDK at run time if it is installed. Building, and running without such a device, need nothing from the vendor.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace wholehand {
 
-// The calls that are used, by the vendor's names without `dhd`. All but those that answer with text or time return a negative number on
-// failure and 0 or a positive one otherwise: 1 (asked again too soon, the last answer is given) and 2 (a motor is saturated) are no errors.
-// `id` is what open_id gave. The prototypes are declared anew from the documentation of the SDK (3.x), https://www.forcedimension.com/sdk.
+// The SDK calls in use, by the vendor's names without `dhd`. Except those that return text or time, they return a negative number on failure and 0 or
+// a positive one otherwise: 1 (asked again too soon, repeats the last answer) and 2 (a motor is saturated) are no errors. `id` comes from open_id.
+// The prototypes are declared anew from the documentation of the SDK (3.x), https://www.forcedimension.com/sdk.
 struct DhdLibrary {
   std::string path;  // as it was loaded
 
@@ -34,16 +34,15 @@ struct DhdLibrary {
   double (*get_time)();                                  // s
   const char* (*error_get_last_str)();
 
-  unsigned int (*get_button_mask)(char id) = nullptr;  // null where this release of the SDK has none
+  unsigned int (*get_button_mask)(char id) = nullptr;  // null if this release of the SDK has none
 };
 
-// Where the SDK says it is, in this order, if no path is named. libdrd has all of libdhd.
+// The SDK's file names, in search order, if no path is given. libdrd contains all of libdhd.
 extern const std::vector<std::string> DHD_LIBRARY_NAMES;
 
-// Loads `path` or, where it is empty, what the environment variable WHOLEHAND_DHD_LIBRARY names or else the first of `names` that is
-// there. What is named explicitly is never replaced by another. Stays loaded until the process ends, since a vendor's library may have
-// threads. Throws Error (failure): the loader's words; or what the SDK is, where to get it and how to name its path; or the symbol that
-// the library lacks.
+// Loads `path` or, if it is empty, what the environment variable WHOLEHAND_DHD_LIBRARY names, or else the first existing one of `names`. An explicit
+// name is never replaced by another. Stays loaded until the process ends, because a vendor's library may have threads. Throws Error (failure): the
+// loader's words; or what the SDK is, where to get it and how to name its path; or the symbol that the library lacks.
 DhdLibrary load_dhd_library(const std::string& path, const std::vector<std::string>& names = DHD_LIBRARY_NAMES);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Going after a goal that jumps, without a jump: what makes the sixty steps a second of a mouse a motion at the rate of a force loop.
+// Follows a jumping goal smoothly: turns a mouse's sixty steps a second into motion at the rate of a force loop.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace wholehand {
 
 // How fast something follows.
 struct Pace {
-  double rate = 60;  // r, 1/s: a goal that moves evenly is followed 2 / r behind
-  double speed = 1;  // at most, units of what follows a second
+  double rate = 60;  // r, 1/s: the follower lags 2 / r behind a goal in uniform motion
+  double speed = 1;  // largest speed, units per second
 };
 
 // The move of the next `seconds` towards a goal that rests meanwhile, from `offset` = place - goal; `velocity` goes with it. A critically damped

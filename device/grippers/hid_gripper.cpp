@@ -74,8 +74,8 @@ class HidTransport final : public Transport {
   const char* last_error_ = "";
 };
 
-// Reads the report descriptor before hidapi opens the node: hidapi 0.13.1 uses freed memory where that is no hidraw node, and a
-// mouse must not be asked for features that it does not have.
+// Reads the report descriptor before hidapi opens the node: hidapi 0.13.1 uses freed memory if that is not a hidraw node, and a mouse must not be
+// asked for features that it lacks.
 std::unique_ptr<HidTransport> HidTransport::open(const std::string& path, std::string& why) {
   auto transport = std::make_unique<HidTransport>(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   const int fd = transport->node_.fd();

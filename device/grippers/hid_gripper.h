@@ -10,12 +10,12 @@
 
 namespace wholehand {
 
-// Opens the gripper at a node such as /dev/hidraw0; empty: the first that is found. The device lets go by itself where it hears nothing
-// for `watchdog_s`, s. Throws Error: (usage) no such period, (failure) everything else: not there, no gripper, no permission, in use by
-// another session, another protocol version, no measurements.
+// Opens the gripper at a node such as /dev/hidraw0; empty: the first one found. The device releases its force if it hears nothing for `watchdog_s`,
+// s. Throws Error: (usage) a period that is not allowed; (failure) everything else: not there, not a gripper, no permission, in use by another
+// session, another protocol version, no measurements.
 std::unique_ptr<Gripper> open_hid(const std::string& path, double watchdog_s);
 
-// Every HID device whose report descriptor says that it is a gripper. Reads the identity of those not in use; does not throw.
+// Every HID device whose report descriptor is a gripper's. Reads the identity of those not in use; does not throw.
 std::vector<GripperFound> find_hid_grippers();
 
 }  // namespace wholehand

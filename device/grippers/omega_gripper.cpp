@@ -64,7 +64,7 @@ std::string address_of(int number) { return number == 0 ? "omega" : fmt::format(
 
 const char* hand_name(const Model& model) { return model.is_left_handed ? "left hand" : "right hand"; }
 
-// An open device; closed when it is destroyed, unless it was before.
+// An open device; closed on destruction, unless closed before.
 class Connection {
  public:
   Connection(const DhdLibrary& dhd, int number) : dhd_(dhd), id_(dhd.open_id(static_cast<char>(number))) {
@@ -112,7 +112,7 @@ int count_devices(const DhdLibrary& dhd) {
       "(device/udev/60-wholehand.rules)?");
 }
 
-// Checks the number before it is locked and opened. Returns it.
+// Checks the number before locking and opening the device. Returns it.
 int check_number(const DhdLibrary& dhd, int number) {
   const int count = count_devices(dhd);
   if (number >= 0 && number < count) return number;
@@ -135,8 +135,8 @@ class OmegaGripper final : public Gripper {
     limits_.gap = GAP;
     limits_.rate = 4000;
     limits_.is_left_handed = model.is_left_handed;
-    // Left-hand devices count gripper angle and force the other way round: so the vendor's torus example
-    // of SDK 3.6, CHAI3D's src/devices/CDeltaDevices.cpp and jhu-saw/sawForceDimensionSDK's mtsForceDimension.cpp.
+    // Left-hand devices count gripper angle and force in the opposite direction, according to the vendor's torus example of SDK 3.6, CHAI3D's
+    // src/devices/CDeltaDevices.cpp and jhu-saw/sawForceDimensionSDK's mtsForceDimension.cpp.
     opening_ = model.is_left_handed ? -1 : 1;
     protect(watchdog);
   }
@@ -158,10 +158,10 @@ class OmegaGripper final : public Gripper {
   }
   void close() noexcept override {
     if (!is_open_) return;
-    // a force may be on until one of the two has taken it away; both are tried
+    // a force may be on until one of the two has removed it; tries both
     if (is_enabled_ && send(GripperForce{})) is_enabled_ = false;
     if (dhd_.stop(id_) >= 0) is_enabled_ = false;
-    is_open_ = false;  // before: no other thread may use a number that is given back
+    is_open_ = false;  // before: no other thread may use a number that was given back
     connection_.close();
   }
   ReleaseResult panic() noexcept override { return is_enabled_ ? ReleaseResult::not_attempted : ReleaseResult::no_force; }
@@ -184,7 +184,7 @@ class OmegaGripper final : public Gripper {
     }
     if (!has_read_) return is_none(force) || fail("no force before the first good read");
     if (!has_enabled_) {
-      // before the call: one that fails half-way may have switched it on, and zero is to be written then
+      // before the call: one that fails half-way may have switched it on, and then zero must be written
       is_enabled_ = true;
       if (dhd_.enable_force(1, id_) < 0) return fail_by("force cannot be enabled");
       has_enabled_ = true;
@@ -203,7 +203,7 @@ class OmegaGripper final : public Gripper {
     dhd_.enable_expert_mode();
     dhd_.enable_force(0, id_);
     if (dhd_.set_watchdog(static_cast<unsigned char>(steps), id_) < 0) {
-      // the SDK cannot be called when this program fails: without a watchdog the last force would stay on it
+      // the SDK cannot be called when this program fails: without a watchdog the last force would stay on
       throw failure_error(
           fmt::format("{}: the device takes no watchdog ({}), and is not used without one", limits_.address, dhd_error(dhd_)));
     }

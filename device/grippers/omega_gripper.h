@@ -10,14 +10,14 @@
 
 namespace wholehand {
 
-// Between the SDK's frame (+x towards the person, +y to the right, +z up; so says CHAI3D, "Haptic devices", General conventions,
-// https://chai3d.org/download/doc/html/chapter6-haptic-devices.html) and the device frame of device/session/tick.h (+x right, +y up, +z towards
-// the person): the same axes under other names, so that lengths and handedness stay.
+// Converts between the SDK's frame (+x towards the person, +y to the right, +z up; CHAI3D, "Haptic devices", General conventions,
+// https://chai3d.org/download/doc/html/chapter6-haptic-devices.html) and the device frame of device/session/tick.h (+x right, +y up, +z towards the
+// person). The axes only change names, so lengths and handedness stay.
 Triple from_dhd(const Triple& vector);
 Triple to_dhd(const Triple& vector);
-// The gripper's own axes change names likewise. The SDK's gripper opens along its own y: the index finger of a right hand is at +y, that of
-// a left hand at -y (CHAI3D, src/tools/CToolGripper.cpp), which is the +x of device/session/tick.h for both. `frame` as the SDK fills it, its
-// columns the gripper's axes.
+// The gripper's own axes change names likewise. The SDK's gripper opens along its own y: the index finger of a right hand is at +y, of a left hand at
+// -y (CHAI3D, src/tools/CToolGripper.cpp), which is the +x of device/session/tick.h for both. `frame` as the SDK fills it, with the gripper's axes as
+// columns.
 Rotation rotation_from_dhd(const double frame[3][3]);
 
 // Opens device `number` of those that the SDK counts (0: the first; address "omega" or "omega:NUMBER"). `library`: path of the SDK, or
@@ -37,7 +37,7 @@ Rotation rotation_from_dhd(const double frame[3][3]);
 // a device that takes no watchdog or not these maximum forces).
 std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_s, int number = 0);
 
-// Every device that the SDK counts, opened for a moment. Without SDK or without a device: one entry that says so. Does not throw.
+// Every device that the SDK counts, opened briefly. Without SDK or device: one entry that says so. Does not throw.
 std::vector<GripperFound> find_omega_grippers(const std::string& library);
 
 }  // namespace wholehand

@@ -25,9 +25,9 @@
 namespace wholehand {
 namespace {
 
-constexpr int MOST_DATAGRAMS = 32;              // that one read takes: a flooded port does not hold the loop up
+constexpr int MOST_DATAGRAMS = 32;              // read at once at most, so that a flooded port does not delay the loop
 constexpr std::size_t MOST_CALLERS = 256;       // whose datagrams are read before the first state
-constexpr int RELEASES = 3;                     // of the last message: a network may lose one
+constexpr int RELEASES = 3;                     // of the last message, because a network may lose one
 constexpr double RELEASE_PAUSE = 1e-3;          // s between two of them
 constexpr std::size_t LARGEST_DATAGRAM = 2048;  // bytes: more than what networks pass on in one piece
 constexpr std::size_t FORCE_MESSAGE = 128;      // bytes, in its bundle
@@ -72,7 +72,7 @@ struct Caller {
   const char* wrong_hello = nullptr;  // what is wrong with a hello of it
 };
 
-// Counts of the datagrams that were not obeyed. The haptic thread counts, others read.
+// Counts of the ignored datagrams. The haptic thread counts, others read.
 struct Ignored {
   std::atomic<std::int64_t> malformed{0}, late{0}, foreign{0};
   std::atomic<const char*> first_wrong{nullptr};  // of the malformed ones
@@ -110,7 +110,7 @@ class OscGripper final : public Gripper {
   ReleaseResult release() noexcept override;
   const char* last_error() const noexcept override { return last_error_; }
   ReleaseResult panic() noexcept override {
-    // first the flag: a write that comes between sends no force either
+    // the flag first, so that a write in between also sends no force
     has_panicked_.store(true);
     bool is_taken = false;
     for (int k = 0; k < RELEASES; ++k) is_taken = socket_.send(release_.all(), to_) || is_taken;
@@ -253,8 +253,8 @@ void OscGripper::obey(const osc::Words& words) noexcept {
   if (is_moving_ && is_finite(newest_) && !steps_.allows(newest_, tick_)) has_jumped_ = true;
 }
 
-// The first sender of a state becomes the hand. Its hello, with the forces that it bears, comes before or with it. A hello that cannot
-// be read must not count as no hello: the largest forces may be too much.
+// The first sender of a state becomes the hand. Its hello, with the forces that it can bear, comes before or with it. A hello that cannot be read
+// must not count as no hello, because the largest forces may be too much.
 void OscGripper::meet(Caller& caller, const Heard& heard) {
   const osc::Words& words = heard.words;
   if (heard.wrong && words.names_hello) caller.wrong_hello = heard.wrong;
@@ -303,8 +303,8 @@ void OscGripper::refuse_silence(double patience, const std::vector<Caller>& call
   throw failure_error(fmt::format("{}: {}", limits_.address, why));
 }
 
-// Datagrams from before the session are old, and the system may have dropped later ones: only their sequence counts. Then the session
-// begins where the hand is now.
+// Datagrams from before the session are old, and the system may have dropped later ones, so only their sequence counts. Then the session begins where
+// the hand is now.
 void OscGripper::begin() noexcept {
   const double end = monotonic_now() + OSC_SILENCE;
   while (take_datagram() && monotonic_now() < end) {
@@ -315,7 +315,7 @@ void OscGripper::begin() noexcept {
   is_missing_ = !is_new_;
 }
 
-// All that wait are taken, and the last state counts.
+// Reads all that wait; the last state counts.
 ReadOutcome OscGripper::read(GripperState& state, std::int64_t tick) noexcept {
   tick_ = tick;
   for (int k = 0; k < MOST_DATAGRAMS && take_datagram(); ++k) {
@@ -341,7 +341,7 @@ ReadOutcome OscGripper::read(GripperState& state, std::int64_t tick) noexcept {
   return ReadOutcome::value;
 }
 
-// A jump is handed on as one step, for the guard to see.
+// A jump is passed on as one step, for the guard to see.
 void OscGripper::follow(std::int64_t tick) noexcept {
   if (!is_moving_) steps_.start(newest_, tick);
   if (!is_moving_ || has_jumped_)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Messages to and from a hand over the network, by Open Sound Control: docs/devices.md describes them. Pure functions; nothing
-// here allocates or throws.
+// Messages to and from a hand over the network, as Open Sound Control; docs/devices.md describes them. Pure functions; nothing here allocates or
+// throws.
 #pragma once
 
 #include <array>
@@ -17,36 +17,35 @@ constexpr const char* STATE = "/wholehand/gripper/state";
 constexpr const char* BYE = "/wholehand/gripper/bye";
 constexpr const char* FORCE = "/wholehand/gripper/force";
 
-// What a number may be; beyond, its message is malformed.
+// The largest allowed numbers; with a larger one, a message is malformed.
 constexpr double MOST_PLACE = 100;                                                  // m from the origin, along each axis
 constexpr double LEAST_GAP = -0.01, MOST_GAP = 1;                                   // m
 constexpr double MOST_FORCE = 1000;                                                 // N
 constexpr double QUATERNION_TOLERANCE = 1e-3;                                       // of the length
-constexpr std::int64_t LEAST_NUMBER = -(1ll << 31), MOST_NUMBER = (1ll << 32) - 1;  // of 32 bits, with a sign or without
+constexpr std::int64_t LEAST_NUMBER = -(1ll << 31), MOST_NUMBER = (1ll << 32) - 1;  // of 32 bits, signed or unsigned
 
-// What the hand is: /wholehand/gripper/hello.
+// The hand's description: /wholehand/gripper/hello.
 struct Hello {
   std::array<double, 2> gap{};  // closed, open, m
-  double force = 0, grip = 0;   // the most it can bear at the arm and at the fingers, N
-  int port = 0;                 // of the sender's host, where forces go; 0: to where the message comes from
+  double force = 0, grip = 0;   // the largest forces that it can bear at the arm and at the fingers, N
+  int port = 0;                 // on the sender's host, for forces; 0: back to the source port
 };
 
-// What a datagram holds for the gripper.
+// The contents of a datagram for the gripper.
 struct Words {
   bool has_hello = false, has_state = false, has_bye = false;
   Hello hello;
-  // The latest by its sequence, or the first with a NaN: the guard checks it. A quaternion of another length than 1 makes the
-  // rotation NaN.
+  // The latest by its sequence, or the first with a NaN, which the guard catches. A quaternion whose length is not 1 makes the rotation NaN.
   GripperState state;
   bool is_any() const { return has_hello || has_state || has_bye; }
-  // Whether its bytes have these addresses, also where it cannot be read.
+  // Whether the datagram contains these addresses, even if it cannot be read.
   bool names_hello = false, names_state = false;
 };
 
-// Reads a datagram. What is wrong with it, and then nothing of it counts; null: nothing. Messages with other addresses are ignored.
+// Reads a datagram. Returns what is wrong with it, and then ignores all of it; null if nothing is wrong. Ignores messages with other addresses.
 const char* read_words(std::span<const char> datagram, Words& words) noexcept;
 
-// Whether sequence `a` comes after `b`: both count on from 2^32 - 1 with 0.
+// Whether sequence `a` comes after `b`; both wrap from 2^32 - 1 to 0.
 constexpr bool is_later(std::uint32_t a, std::uint32_t b) { return static_cast<std::int32_t>(a - b) > 0; }
 
 }  // namespace wholehand::osc

@@ -22,7 +22,7 @@ void PacketMotion::start(const GripperState& state, std::int64_t tick) noexcept 
   began_ = moved_ = heard_ = tick;
 }
 
-// The way begins where the hand was at the tick before: a sender as fast as the loop is not followed a tick late.
+// The move begins where the hand was at the previous tick, so that a sender as fast as the loop is not followed a tick late.
 void PacketMotion::aim(const GripperState& goal, std::int64_t tick) noexcept {
   from_ = at(moved_);
   began_ = moved_;

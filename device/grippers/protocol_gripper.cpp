@@ -19,7 +19,7 @@ namespace {
 using protocol::Wrong;
 
 constexpr double START_PATIENCE = 1;  // s: for the first measurement; a device may have something to finish
-constexpr int MOST_QUEUES = 8;        // that one read takes: a device that is faster than its reader does not hold it up for ever
+constexpr int MOST_QUEUES = 8;        // read at once at most, so that a device faster than its reader does not hold it up forever
 constexpr double LEAST_WATCHDOG_SHARE = 0.5;  // a device rounds its watchdog period down, and not to nothing
 
 // Forces beyond the device's limits are scaled to them, direction kept: the last guard before the wire.
@@ -51,7 +51,7 @@ class ProtocolGripper final : public Gripper {
   }
   const char* last_error() const noexcept override { return last_error_; }
   ReleaseResult panic() noexcept override {
-    // first the flag: a write that comes between sends no force either
+    // the flag first, so that a write in between also sends no force
     has_panicked_.store(true);
     return release_from_watchdog();
   }
@@ -88,7 +88,7 @@ ReadOutcome ProtocolGripper::next(GripperState& state, double patience) noexcept
   }
   protocol::InputReport report;
   Wrong wrong = protocol::decode({buffer_.data(), length}, report);
-  // it let go by itself, and stays so until the next session
+  // it released its force by itself, and stays released until the next session
   if (wrong == Wrong::nothing && (report.status & protocol::WATCHDOG_TRIPPED)) wrong = Wrong::tripped;
   if (wrong == Wrong::nothing) wrong = measurements_.check(report);
   if (wrong != Wrong::nothing) {
@@ -99,8 +99,8 @@ ReadOutcome ProtocolGripper::next(GripperState& state, double patience) noexcept
   return ReadOutcome::value;
 }
 
-// All that wait are taken, each is checked, and the last one counts. Where as many waited as a queue holds, newer ones have been lost:
-// what was in it is old, and one more must come.
+// Reads all that wait, checks each, and uses the last one. If as many waited as a queue holds, newer ones have been lost: the queue's contents are
+// old, and one more must come.
 ReadOutcome ProtocolGripper::read(GripperState& state, std::int64_t) noexcept {
   GripperState newest;
   const int full = transport_->queue_length();

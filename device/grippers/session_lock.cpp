@@ -16,7 +16,7 @@
 namespace wholehand {
 namespace {
 
-// One for all users: two of them may sit before the same device.
+// One for all users, since two of them may use the same device.
 std::string lock_directory() {
   if (const char* named = std::getenv("WHOLEHAND_LOCK_DIR"); named && *named) return named;
   return access("/run/lock", W_OK | X_OK) == 0 ? "/run/lock" : "/tmp";

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// One session a device: a lock that ends with the process, whatever ends it.
+// One session per device: a lock that ends with the process, however that ends.
 #pragma once
 
 #include <string>
 
 namespace wholehand {
 
-// Holds the lock file `wholehand-NAME.lock` in /run/lock (/tmp where that is none; or WHOLEHAND_LOCK_DIR). The file stays behind, the lock does
-// not. It holds between all users.
+// Holds the lock file `wholehand-NAME.lock` in WHOLEHAND_LOCK_DIR, else in /run/lock, else in /tmp. The file stays behind; the lock does not. It
+// works across all users.
 class SessionLock {
  public:
   // `name` without slashes, e.g. "omega-0". Throws Error (failure) if another session holds it or the file cannot be made.

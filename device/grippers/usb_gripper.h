@@ -10,9 +10,9 @@
 
 namespace wholehand {
 
-// Opens the gripper with a vendor and product id, VVVV:PPPP in hexadecimal digits; empty: the first that is found. The device lets go by
-// itself where it hears nothing for `watchdog_s`, s. Throws Error: (usage) no such id or period, (failure) everything else: not there, no
-// gripper, no permission, in use by another session, another protocol version, no measurements.
+// Opens the gripper with a vendor and product id, VVVV:PPPP in hexadecimal digits; empty: the first one found. The device releases its force if it
+// hears nothing for `watchdog_s`, s. Throws Error: (usage) an invalid id or period; (failure) everything else: not there, not a gripper, no
+// permission, in use by another session, another protocol version, no measurements.
 std::unique_ptr<Gripper> open_usb(const std::string& vid_pid, double watchdog_s);
 
 // Every USB device with a gripper's interface. Reads the identity of those not in use; does not throw.

@@ -195,7 +195,7 @@ void UsbTransport::on_output(libusb_transfer* transfer) {
   }
   if (!self.has_next_output_) return;
   self.has_next_output_ = false;
-  // the process stood still meanwhile: the force of before must not come back
+  // the process stalled meanwhile: the old force must not come back
   if (monotonic_now() - self.next_since_ >= STALE_OUTPUT) return;
   // nor may it follow the zero of a handler or a second thread
   if (self.next_panics_ != self.panics_ || is_releasing()) return;
@@ -206,7 +206,7 @@ void UsbTransport::on_output(libusb_transfer* transfer) {
   }
 }
 
-// One output is under way at a time, and one more waits, the newest: a device that is slow gets the force of now when it gets any.
+// One output is in progress, and one more waits, the newest: a slow device gets the present force when it gets any.
 bool UsbTransport::send(protocol::Bytes report) noexcept {
   const int panics = panics_;
   if (is_output_in_flight_ && !wait_for(0)) return false;
@@ -239,8 +239,8 @@ bool UsbTransport::send_now(protocol::Bytes report) noexcept {
   return (code == 0 && sent == static_cast<int>(bytes.size())) || failed(code, "it takes no force");
 }
 
-// Straight to the kernel, since libusb may be in the middle of something: the call waits for the transfer, which queues behind the one
-// that is under way, and is then the last.
+// Straight to the kernel, because libusb may be in the middle of something: the call waits for the transfer, which queues behind the one in progress
+// and is then the last.
 bool UsbTransport::panic(protocol::Bytes report) noexcept {
   ++panics_;
   if (descriptor_ < 0) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports to and from an open gripper's interface on the USB, by libusb.
+// Reports to and from an open gripper's USB interface, by libusb.
 #pragma once
 
 #include <libusb-1.0/libusb.h>
@@ -21,7 +21,7 @@ struct UsbContextCloser {
 };
 using UsbContext = std::unique_ptr<libusb_context, UsbContextCloser>;
 
-// The part of a device that is the gripper.
+// The gripper's interface within a device.
 struct UsbPart {
   int interface = 0;
   std::uint8_t in = 0, out = 0;  // endpoint addresses
@@ -29,15 +29,15 @@ struct UsbPart {
 
 class UsbTransport final : public Transport {
  public:
-  // Claims the interface. Null where it cannot be opened; then `why` says so.
+  // Claims the interface. Null if it cannot be opened; then `why` says why.
   static std::unique_ptr<UsbTransport> open(libusb_context* context, libusb_device* device, const UsbPart& part, std::string& why);
   UsbTransport(libusb_context* context, libusb_device_handle* handle, const UsbPart& part)
       : context_(context), handle_(handle), part_(part) {}
   ~UsbTransport() override;
 
-  // Allocates what a session needs and lets the input flow; false: no memory.
+  // Allocates what a session needs and starts the input; false: no memory.
   bool start();
-  // From now on the context, which has no other use, goes with it.
+  // From now on this owns the context, which nothing else uses.
   void keep(UsbContext context) { kept_ = std::move(context); }
 
   int queue_length() const noexcept override { return IN_FLIGHT; }
@@ -50,8 +50,7 @@ class UsbTransport final : public Transport {
   bool panic(protocol::Bytes report) noexcept override;
 
  private:
-  // Input transfers in flight: the device's reports of 2 ms at the fastest rate allowed, so that a loop of 1 kHz always finds the
-  // newest.
+  // Input transfers in flight: 2 ms of the device's reports at the fastest allowed rate, so that a loop of 1 kHz always finds the newest.
   static constexpr int IN_FLIGHT = 16;
 
   struct Incoming {
@@ -75,20 +74,20 @@ class UsbTransport final : public Transport {
   void find_descriptor();
   bool failed(int code, const char* what) noexcept;
 
-  UsbContext kept_;  // first: the last to go
+  UsbContext kept_;  // declared first, so destroyed last
   libusb_context* context_;
   libusb_device_handle* handle_;
   UsbPart part_;
-  int descriptor_ = -1;  // libusb's of the device node, for panic(); -1: not known
+  int descriptor_ = -1;  // libusb's descriptor of the device node, for panic(); -1: unknown
   std::array<Incoming, IN_FLIGHT> incoming_;
-  std::array<Report, 2 * IN_FLIGHT> reports_;  // came and not taken yet: a ring
+  std::array<Report, 2 * IN_FLIGHT> reports_;  // received but not yet read: a ring
   std::size_t first_ = 0, count_ = 0;
   libusb_transfer* output_ = nullptr;
   std::array<std::uint8_t, protocol::OUTPUT_SIZE> output_bytes_{}, next_output_{};
   bool is_output_in_flight_ = false, has_next_output_ = false, has_output_failed_ = false, is_closing_ = false;
-  double next_since_ = 0;       // s of the clock, when the one that waits was handed in
-  int next_panics_ = 0;         // panics_ when its send() began
-  std::atomic<int> panics_{0};  // calls of panic(), of any thread
+  double next_since_ = 0;       // s of the clock, when the waiting one was submitted
+  int next_panics_ = 0;         // value of panics_ when its send() began
+  std::atomic<int> panics_{0};  // number of panic() calls, from any thread
   static_assert(std::atomic<int>::is_always_lock_free, "counted in a signal handler");
   int late_outputs_ = 0;
   bool has_input_failed_ = false;

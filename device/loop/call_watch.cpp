@@ -49,8 +49,8 @@ void CallWatch::look() noexcept {
   }
   const double since = since_;
   if (since == 0 || since == handled_ || monotonic_now() - since < CALL_PATIENCE) return;
-  // the flag goes first, and then it must still be the same call: one that has returned meanwhile may not have seen the flag, and
-  // the zero would come beside the next full force
+  // sets the flag first, and then checks that it is still the same call: one that has returned meanwhile may not have seen the flag, and the zero
+  // would come beside the next full force
   has_acted_ = true;
   if (since_ != since) {
     has_acted_ = false;
@@ -59,7 +59,7 @@ void CallWatch::look() noexcept {
   handled_ = since;
   acted_at_ = monotonic_now();
   act();
-  if (outcome_ != ReleaseResult::no_force) ++count_;  // a gripper whose forces go nowhere has no call that matters
+  if (outcome_ != ReleaseResult::no_force) ++count_;  // a gripper that discards forces has no call that matters
 }
 
 void CallWatch::act() noexcept {
@@ -85,7 +85,7 @@ double CallWatch::lasted() const noexcept {
 }
 
 bool CallWatch::wait_for_return() const noexcept {
-  // counted, not timed: a process that is stopped meanwhile has not waited
+  // counted, not timed: a process that was stopped meanwhile has not waited
   for (int k = 0; k < CALL_LOST * 1e3 && is_looking_; ++k) poll(nullptr, 0, 1);
   return !is_looking_;
 }

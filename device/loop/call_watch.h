@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A second thread that watches how long the haptic thread has been in a call of the device.
+// A second thread that watches how long the haptic thread has been in a device call.
 #pragma once
 
 #include <atomic>
@@ -11,45 +11,45 @@
 
 namespace wholehand {
 
-constexpr double CALL_PATIENCE = 12e-3;  // s: READ_PATIENCE and what a wait is longer than was asked
-constexpr double CALL_LOST = 1;          // s: a call that has not returned by then is given up, and the session with it
+constexpr double CALL_PATIENCE = 12e-3;  // s: READ_PATIENCE, plus the excess of a wait
+constexpr double CALL_LOST = 1;          // s: then a call that has not returned, and the session, are given up
 
-// While it lives, a call of the gripper that does not return within CALL_PATIENCE has Gripper::release_from_watchdog() called on its own thread, once
-// a call.
+// While it lives, a gripper call that does not return within CALL_PATIENCE triggers Gripper::release_from_watchdog() on this object's thread, once
+// per call.
 class CallWatch {
  public:
-  // `gripper` must outlive it. Throws std::system_error where there is no thread.
+  // `gripper` must outlive it. Throws std::system_error if no thread can be started.
   explicit CallWatch(Gripper& gripper);
   // Waits for its own call of the gripper, if there is one.
   ~CallWatch();
   CallWatch(const CallWatch&) = delete;
   CallWatch& operator=(const CallWatch&) = delete;
 
-  // ---- the haptic thread, around its calls: atomics only ----
+  // ---- for the haptic thread, around its calls: atomics only ----
   // `moment`: of the monotonic clock, s.
   void enter(double moment) noexcept { since_.store(moment); }
-  // True: zero force has been or is being written since the last answer, and what is written next must begin at zero. After false
-  // none is written on behalf of that call.
+  // True: zero force has been or is being written since the last answer, so the next write must begin at zero. After false, no zero force is written
+  // because of that call.
   bool leave() noexcept {
     since_.store(0);
     return has_acted_.exchange(false);
   }
 
-  // ---- other threads ----
-  // A line on the first call that did not return in time, once, as soon as it is known what became of the force.
+  // ---- for other threads ----
+  // A line about the first call that did not return in time, once, as soon as the force's fate is known.
   std::optional<std::string> take_warning();
-  // Calls that did not return in time.
+  // Number of calls that did not return in time.
   int count() const noexcept { return count_.load(); }
-  // For how long the call under way has not returned, s; 0: none is under way.
+  // Age of the unreturned call in progress, s; 0: none is in progress.
   double lasted() const noexcept;
-  // What became of the last attempt to take the force away; not_attempted while one is under way.
+  // The result of the last attempt to remove the force; not_attempted during one.
   ReleaseResult outcome() const noexcept { return outcome_.load(); }
 
-  // Whether the second thread is, or comes within CALL_LOST, out of its own call of the gripper; asked while the haptic thread is in no call. If
-  // not, the destructor would wait without end.
+  // Whether the second thread is out of its own gripper call, or returns within CALL_LOST; only ask while the haptic thread is in no call. If false,
+  // the destructor would wait forever.
   bool wait_for_return() const noexcept;
-  // Zero force by the second thread, for a signal handler or a program that is being ended, on any thread. Waits a while; not_attempted: the
-  // second thread has no answer.
+  // Has the second thread write zero force; for a signal handler or a program that is ending, on any thread. Waits briefly; not_attempted: the second
+  // thread gave no answer.
   ReleaseResult rescue() noexcept;
 
  private:
@@ -63,9 +63,9 @@ class CallWatch {
   std::atomic<int> count_{0};
   std::atomic<double> acted_at_{0};  // s on the clock
   std::atomic<ReleaseResult> outcome_{ReleaseResult::no_force};
-  double handled_ = 0;  // beginning of the last call that was acted upon, s on the clock
+  double handled_ = 0;  // start of the last call that it acted on, s on the clock
   bool was_reported_ = false;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // declared last: it uses all of the above
 };
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The held state as a loop: a gripper that pushes the fingers apart with the feedback force, and a user who holds a grip force.
+// The held state as a control loop: a gripper that pushes the fingers apart with the feedback force, and a user who holds a grip force.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct GripLoop {
   double excess = 3;                         // N beyond F_base that the user holds
   double tilt = 1.5707963267948966;          // rad
   double tilt_speed = 0.43;                  // rad/s
-  double band = 8e-3;                        // m of opening beyond the grasp at which it is lost
+  double band = 8e-3;                        // m of opening beyond the grasp at which the grip is lost
 };
 
 enum class GripOutcome { settles, creeps, oscillates, saturates, lost };
@@ -33,29 +33,29 @@ extern const char* const GRIP_OUTCOME_NAMES[GRIP_OUTCOMES];
 
 struct GripLoopResult {
   GripOutcome outcome = GripOutcome::settles;
-  double response_time = 0;  // from the grasp until the gap's speed stays under 2 mm/s for 50 ms; NaN: never before the tilt
-  double overshoot = 0;      // of x before the tilt, over where it then is; at least 0
-  double opened = 0;         // furthest below the place at the tilt's begin, m
-  double swing = 0;          // of x in the end, m
+  double response_time = 0;  // from the grasp until the gap's speed stays under 2 mm/s for 50 ms; NaN: not before the tilt
+  double overshoot = 0;      // of x before the tilt, above its value at the tilt's start; at least 0
+  double opened = 0;         // largest drop below the place at the tilt's start, m
+  double swing = 0;          // of x at the end, m
 };
 
-// Two seconds to grasp, the tilt, and two seconds and ten reactions to settle. The grip is lost where x falls below -band; oscillates where
-// x still rises and falls by more than GRIP_SWING in the end (half a second, or five reactions: more than a period of the user's loop at
-// its limit), creeps where it only does one of them; saturates where the feedback is then at F_max throughout, so that the user feels neither torque
-// nor grip and closes on.
+// Simulates two seconds of grasp, the tilt, and two seconds and ten reactions to settle. The grip is lost if x falls below -band. The end is the last
+// half second, or five reactions if longer (more than a period of the user's loop at its limit). The grip oscillates if x then still rises and falls
+// by more than GRIP_SWING, and creeps if it only does one of them. It saturates if the feedback is at F_max throughout the end: the user then feels
+// neither torque nor grip and keeps closing.
 GripLoopResult hold_and_tilt(const GripLoop& loop);
 constexpr double GRIP_SWING = 0.2e-3;  // m
 
-// Whether what a step of F_base sets in motion dies away: by simulation without tilt, clamp or band.
+// Whether motion after a step of F_base dies away, by simulation without tilt, clamp or band.
 bool decays(const GripLoop& loop);
-// The largest k_open, N/m, at which it does, found as largest_stable does.
+// The largest k_open, N/m, at which it does, found as by largest_stable.
 double largest_k_open(const GripLoop& loop);
-// By theory: where the sampled spring and the finger are linearly stable (no user), and where the user's delayed integral is: k_open /
-// (k_f + k_open) reaction / response < pi / 2. Infinite where nothing limits it.
+// Theoretical limits: linear stability of the sampled spring with the finger (no user), and of the user's delayed integral: k_open / (k_f + k_open)
+// reaction / response < pi / 2. Infinite if nothing limits it.
 double sampled_k_open(const GripLoop& loop);
 double reaction_k_open(const GripLoop& loop);
 
-// The sessions of the report: every value of one parameter with the others at their defaults, and the products of the five that decide.
+// The sessions of the report: every value of one parameter with the others at their defaults, and the products of the five that matter most.
 struct GripLoopRow {
   std::string varied;
   GripLoop loop;

@@ -32,7 +32,7 @@ Fault Guard::check(ReadOutcome read, const GripperState& state, std::int64_t num
     turn_speed_ = turned_by(state.rotation, state_.rotation) / seconds;
     if (arm_speed_ > jump_ || gap_speed_ > jump_ || turn_speed_ > JUMP_TURN) return Fault::jump;
   }
-  // A process that stalls inside a read gets its measurement late. A replay sees that from the numbers.
+  // A process that stalls inside a read gets its measurement late. A replay sees that from the tick numbers.
   const bool is_after_gap = has_state_ && period_ * static_cast<double>(number - number_) >= CALL_PATIENCE;
   taken_ = is_after_gap ? number_ : number;
   has_state_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands between the method and the fingers: whatever is wrong ends in no force, and what is right comes within limits.
+// Stands between the method and the fingers: any fault ends in zero force, and valid forces are kept within limits.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,21 @@ class Guard {
  public:
   Guard(const LiveData& live, const GripperLimits& limits);
 
-  // Why the tick of that number must not go on; Fault::none: it may. In this order: the read failed; the measurement before came once more; a
-  // number that is none or a rotation that is none (its columns must be unit and right-handed to ROTATION_TOLERANCE); the arm or the gap
-  // moved faster than [live] jump_m_s, or the rotation faster than JUMP_TURN. A measurement that comes after missed ticks of CALL_PATIENCE and
-  // longer may have been taken before them. What moved since then is compared with the whole time.
+  // Why the tick of that number must not proceed; Fault::none: it may. Checks, in this order: the read failed; the previous measurement was repeated;
+  // a number is not finite or a rotation is invalid (its columns must be unit and right-handed to ROTATION_TOLERANCE); the arm or the gap moved
+  // faster than [live] jump_m_s, or the rotation faster than JUMP_TURN. After missed ticks of CALL_PATIENCE or longer, a measurement may predate
+  // them, so its motion is compared with the whole time.
   Fault check(ReadOutcome read, const GripperState& state, std::int64_t number) noexcept;
 
-  // What jumped, how fast, and what is allowed, for the fault of that name.
+  // What jumped, how fast, and what is allowed, for the fault `jump`.
   std::string jump() const;
 
-  // The force to write: `wanted` no larger than the device's limits (the arm keeps its direction), times the ramp from zero over the first
-  // ramp_s of ticks, and no further from the force before than slew_N_s allows, arm and grip each. A force that is no number is none. After
-  // ticks that were missed for STALL and longer, in which a device's own watchdog may have let go, the first is zero, whatever the ramp, and it all
-  // begins again.
+  // The force to write: `wanted` clamped to the device's limits (the arm keeps its direction), times the ramp from zero over the first ramp_s of
+  // ticks, and no further from the previous force than slew_N_s allows, arm and grip each. A force that is not finite counts as zero. After missed
+  // ticks of STALL or longer, in which a device's own watchdog may have acted, the first force is zero, whatever the ramp, and the ramp restarts.
   GripperForce limit(const GripperForce& wanted, std::int64_t number) noexcept;
 
-  // The least number of periods that make a stall.
+  // The smallest number of periods that counts as a stall.
   std::int64_t stall_periods() const noexcept;
 
  private:
@@ -40,18 +39,18 @@ class Guard {
   bool has_state_ = false;                                 // a measurement came before
   GripperState state_;                                     // it
   std::int64_t number_ = 0;                                // its tick
-  std::int64_t taken_ = 0;                                 // the earliest tick in which it may have been taken
+  std::int64_t taken_ = 0;                                 // the earliest tick in which the measurement may have been taken
   std::int64_t first_ = -1;                                // tick of the first force; -1: none yet
-  std::int64_t limited_ = 0;                               // tick of the force before
+  std::int64_t limited_ = 0;                               // tick of the previous force
   GripperForce written_;                                   // that force
   double arm_speed_ = 0, gap_speed_ = 0, turn_speed_ = 0;  // m/s, m/s, rad/s: of the last two measurements
 };
 
-// Angle between two rotations, rad: for small ones.
+// Angle between two rotations, rad: accurate for small ones.
 double turned_by(const Rotation& a, const Rotation& b) noexcept;
 
-constexpr double ROTATION_TOLERANCE = 1e-3;  // a tenth of a degree of skew is a broken sensor
-constexpr double STALL = 15e-3;              // s: less than the watchdog that a device is given
+constexpr double ROTATION_TOLERANCE = 1e-3;  // a tenth of a degree of skew means a broken sensor
+constexpr double STALL = 15e-3;              // s: less than the watchdog period of a device
 constexpr double JUMP_TURN = 100;            // rad/s: a quick wrist turns at 30
 
 }  // namespace wholehand

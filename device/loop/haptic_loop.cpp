@@ -55,15 +55,15 @@ bool HapticLoop::is_over(std::int64_t number) const noexcept {
 // s on the clock; 0 where there is none.
 double HapticLoop::clock() const noexcept { return options_.is_simulated ? 0 : monotonic_now(); }
 
-// The next tick that is not over yet. A replay dictates the number that was recorded.
+// The next tick that is not over yet. A replay dictates the recorded number.
 std::int64_t HapticLoop::next_number(std::int64_t number) noexcept {
   const std::int64_t replayed = gripper_.replayed_tick();
   if (replayed > number) return replayed;
   return number < 0 ? number + 1 : number_now(number + 1);
 }
 
-// The tick that it is by the clock, `number` or later; what lies between is missed. After a stall at least so late that the guard sees it in the
-// numbers, from which a replay makes the same forces.
+// The tick by the clock, `number` or later; the ticks in between are missed. After a stall it is at least so late that the guard sees the stall in
+// the numbers, from which a replay makes the same forces.
 std::int64_t HapticLoop::number_now(std::int64_t number) noexcept {
   if (options_.is_simulated || gripper_.replayed_tick() >= 0) return number;
   const double moment = clock();
@@ -85,7 +85,7 @@ void HapticLoop::leave() noexcept {
   if (options_.watch && options_.watch->leave()) has_stalled_ = true;
 }
 
-// A measurement that took long belongs to the tick in which it is there.
+// A late measurement belongs to the tick in which it arrives.
 ReadOutcome HapticLoop::read(std::int64_t& number, Tick& tick) noexcept {
   const double began = clock();
   enter(began);
@@ -109,7 +109,7 @@ bool HapticLoop::step(std::int64_t number, double due) noexcept {
     release(Fault::none, tick);
     return false;
   }
-  // what a recording dictates was on time when it counted
+  // what a recording dictates was on time when recorded
   const bool is_late = late_ >= live_.late_steps && gripper_.replayed_tick() < 0;
   const Fault fault = is_late ? Fault::late : guard_.check(outcome, state_, number);
   if (fault != Fault::none) {
@@ -149,7 +149,7 @@ bool HapticLoop::step(std::int64_t number, double due) noexcept {
   return true;
 }
 
-// After a stall zero: the device may have let go. One that the numbers did not show yet lay between measurement and here.
+// Zero after a stall, because the device may have released its force. A stall that the numbers did not show yet lay between measurement and here.
 bool HapticLoop::write(Tick& tick) noexcept {
   const double began = clock();
   const bool is_old =
@@ -172,9 +172,9 @@ void HapticLoop::end(Fault fault, std::int64_t number) noexcept {
   release(fault, tick);
 }
 
-// No force, at once and without slew; the report keeps the last tick.
+// Zero force, at once and without slew; the report keeps the last tick.
 void HapticLoop::release(Fault fault, Tick& tick) noexcept {
-  // the fault and its words first: letting go may have words of its own, or may not return
+  // records the fault and its words first: releasing may have words of its own, or may not return
   std::snprintf(last_error_.data(), last_error_.size(), "%s", gripper_.last_error());
   tick.state = SessionState::released;
   tick.fault = fault;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Percentiles of times without keeping them: counts in bins of equal ratio.
+// Percentiles of times without storing the times: counts in bins of equal ratio.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace wholehand {
 class Histogram {
  public:
   void add(double seconds) noexcept;
-  // The least time that a share of all times (0..1) does not exceed, as the middle of its bin; s. 0 where there are none.
+  // The least time that a share of all times (0..1) does not exceed, as the middle of its bin; s. 0 if there are none.
   double quantile(double share) const noexcept;
   double largest() const noexcept { return largest_; }  // exact
   std::uint64_t count() const noexcept { return count_; }

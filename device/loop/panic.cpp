@@ -18,7 +18,7 @@ namespace {
 constexpr FailureSignal END_REQUESTS[] = {
     {SIGQUIT, "SIGQUIT"},     {SIGALRM, "SIGALRM"}, {SIGUSR1, "SIGUSR1"}, {SIGUSR2, "SIGUSR2"}, {SIGXCPU, "SIGXCPU"},
     {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"}, {SIGPWR, "SIGPWR"},   {SIGIO, "SIGIO"},     {SIGSTKFLT, "SIGSTKFLT"}};
-// the first of them asks the session to end, another one to end at once
+// the first of them asks the session to end, another one ends it at once
 constexpr FailureSignal INTERRUPTS[] = {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
 // the write that meets them fails by itself
 constexpr int IGNORED[] = {SIGXFSZ, SIGPIPE};
@@ -29,7 +29,7 @@ std::atomic<const char*> library_at_hand{nullptr};          // the library in us
 std::atomic<int> libraries{0};                              // guards that say so
 std::atomic<pid_t> first{0};                                // thread that failed first; 0: none
 std::atomic<int> depth{0};                                  // of its failures
-static_assert(std::atomic<Gripper*>::is_always_lock_free);  // or a signal handler could not read it
+static_assert(std::atomic<Gripper*>::is_always_lock_free);  // otherwise a signal handler could not read it
 
 constexpr int WRITE_LASTS = 2;  // ms: of a force that is being handed over
 
@@ -43,7 +43,7 @@ const char* name_of(int signal, const FailureSignal (&all)[N]) {
   return "";
 }
 
-// What becomes of the force, into the line.
+// Writes the force's fate into the line.
 void release_in_panic(Gripper& gripper, SafeLine& line) {
   const ForceSize last = gripper.last_written_force();
   ReleaseResult outcome = ReleaseResult::refused;
@@ -58,7 +58,7 @@ void release_in_panic(Gripper& gripper, SafeLine& line) {
 
 // `line` says what happened, `advice` what the user should do.
 [[noreturn]] void end_here(SafeLine& line, const char* advice) {
-  // the first one lets go; another thread that fails meanwhile waits for it to end the process
+  // the first thread releases the force; another one that fails meanwhile waits for it to end the process
   const pid_t self = gettid();
   pid_t none = 0;
   if (!first.compare_exchange_strong(none, self) && none != self)
@@ -66,7 +66,7 @@ void release_in_panic(Gripper& gripper, SafeLine& line) {
   if (++depth > 3) _exit(3);
   Gripper* const gripper = at_hand;
   if (gripper) {
-    // a force that the haptic thread is handing over meanwhile must not come after the zero; the next one is zero itself
+    // a force that the haptic thread is writing meanwhile must not follow the zero; the next one is zero itself
     poll(nullptr, 0, WRITE_LASTS);
     line.add("; ");
     release_in_panic(*gripper, line);
@@ -90,7 +90,7 @@ void release_in_panic(Gripper& gripper, SafeLine& line) {
   end_here(line, has_failed ? "; please report it" : "");
 }
 
-// exit() while a session runs or a device's library is called: nothing of this program does that.
+// exit() during a session or a call of a device's library: nothing of this program does that.
 void on_exit_within(int code) {
   const char* const place = at_hand ? "live" : libraries > 0 ? library_at_hand.load() : nullptr;
   if (!place) return;
@@ -140,7 +140,7 @@ PanicGuard::PanicGuard(Gripper& gripper, CallWatch* watch) {
 }
 
 PanicGuard::~PanicGuard() {
-  // the handlers first: while they are in place there is a gripper
+  // the handlers first: while they are installed there is a gripper
   for (const Before& before : before_) sigaction(before.signal, &before.action, nullptr);
   at_hand = nullptr;
   watch_at_hand = nullptr;

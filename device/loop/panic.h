@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No force on the fingers when the program itself fails.
+// Removes the force from the fingers if the program itself fails.
 #pragma once
 
 #include <csignal>
@@ -10,8 +10,7 @@
 
 namespace wholehand {
 
-// A stack of its own for the handlers of the thread that makes it, for when that thread's own is what has failed. The one that was
-// there before comes back.
+// A separate stack for signal handlers of the thread that makes it, in case the thread's own stack is what failed. Restores the previous one.
 class HandlerStack {
  public:
   HandlerStack();
@@ -24,19 +23,19 @@ class HandlerStack {
   stack_t before_{};
 };
 
-// Whether a signal or an exit is ending the process: then no thread may write another force than zero. One load of an atomic.
+// Whether a signal or an exit is ending the process: then no thread may write a nonzero force. One load of an atomic.
 bool is_releasing() noexcept;
 
-// What a PanicGuard does at a signal that would end the process at once, for the handler of a signal that it does not take over:
-// SIGINT, SIGTERM or SIGHUP for the second time. Safe in a signal handler.
+// Does what a PanicGuard does at a fatal signal, for the handler of a signal that it does not take over: SIGINT, SIGTERM or SIGHUP for the second
+// time. Safe in a signal handler.
 [[noreturn]] void end_by_signal(int signal) noexcept;
 
-// While it lives, on any thread: a failed assertion, an uncaught exception, std::terminate; a failure that comes as a signal (SIGABRT, SIGSEGV,
+// While it lives, it handles these on any thread: a failed assertion, an uncaught exception, std::terminate; a failure signal (SIGABRT, SIGSEGV,
 // SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS); another signal that would end the process at once (SIGQUIT, SIGALRM, SIGUSR1 and 2, SIGXCPU, SIGVTALRM,
-// SIGPROF, SIGPWR, SIGIO, SIGSTKFLT and the real-time ones, unless they were ignored before); and exit() or quick_exit() by whatever library:
-// each first calls gripper.panic(), has `watch` write zero force where that must not, then writes a line on what became of the force to stderr
-// and ends the process with exit code 3. SIGXFSZ and SIGPIPE are ignored meanwhile, so that a write that meets them fails and says so. At most
-// one at a time. Gripper and watch must outlive it; the watch may be missing.
+// SIGPROF, SIGPWR, SIGIO, SIGSTKFLT and the real-time ones, unless they were ignored before); and exit() or quick_exit() by any library. Each first
+// calls gripper.panic(), or has `watch` write zero force where panic() cannot, then writes a line on the force's fate to stderr and ends the process
+// with exit code 3. SIGXFSZ and SIGPIPE are ignored meanwhile, so that the write that causes them fails and says so. Only one may exist at a time.
+// Gripper and watch must outlive it; the watch may be null.
 class PanicGuard {
  public:
   explicit PanicGuard(Gripper& gripper, CallWatch* watch = nullptr);
@@ -55,9 +54,8 @@ class PanicGuard {
   std::vector<Before> before_;
 };
 
-// While it lives, exit() and quick_exit() by whatever library write a line that begins with `place` and end the process with exit
-// code 3, as while a PanicGuard lives: for a device's library that is called before, after or without a session. Any number of
-// them; `place` must outlive them.
+// While it lives, exit() and quick_exit() by any library write a line that begins with `place` and end the process with exit code 3, as with a
+// PanicGuard. For a device's library that is called before, after or without a session. Any number may exist; `place` must outlive them.
 class ExitGuard {
  public:
   explicit ExitGuard(const char* place);

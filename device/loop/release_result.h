@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What became of a gripper's force when it was to go, and the words for it.
+// The result of removing a gripper's force, and its wording.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 namespace wholehand {
 
 enum class ReleaseResult : std::uint8_t {
-  no_force,       // no force was on it: never switched on, or a gripper whose forces go nowhere
-  written,        // the device took zero force
-  refused,        // it was asked to take zero force, and did not
+  no_force,       // it had no force: never switched on, or the gripper discards forces
+  written,        // the device accepted zero force
+  refused,        // it was asked to accept zero force, and did not
   not_attempted,  // its library cannot be called at that moment
 };
 
@@ -23,8 +23,8 @@ struct ForceSize {
 
 constexpr double UNKNOWN_WATCHDOG = -1;  // instead of a period: the watchdog is unknown
 
-// "zero force was written"; or that it was not, then with `last`, the force that was written before, and who takes it away: the device's watchdog
-// of that period, s; 0: it has none; or UNKNOWN_WATCHDOG. `why`: the device's words, may be empty. Safe in a signal handler.
+// "zero force was written"; or that it was not, with `last`, the previously written force, and what removes it: the device's watchdog of that period,
+// s; 0: it has none; or UNKNOWN_WATCHDOG. `why`: the device's words, may be empty. Safe in a signal handler.
 void add_force_words(SafeLine& line, ReleaseResult outcome, const ForceSize& last, double watchdog,
                      std::string_view why = {}) noexcept;
 

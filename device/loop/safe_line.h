@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A line of text that a signal handler may put together: no allocation, no locale, no library call that is not safe there.
+// A line of text that a signal handler may build: no allocation, no locale, no unsafe library call.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace wholehand {
 
-// What does not fit is left out.
+// Text that does not fit is dropped.
 class SafeLine {
  public:
   SafeLine& add(std::string_view text) noexcept {
@@ -19,7 +19,7 @@ class SafeLine {
     return *this;
   }
 
-  // A number of up to `decimals` digits behind the point, without zeros at its end; 2^53 and more as "many", NaN as "nan".
+  // A number of up to `decimals` decimals, without trailing zeros; 2^53 and more as "many", NaN as "nan".
   SafeLine& add(double number, int decimals) noexcept {
     if (number != number) return add("nan");
     if (number < 0) return add("-").add(-number, decimals);

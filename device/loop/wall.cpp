@@ -40,8 +40,8 @@ core_f64::Wall wall_of(const WallDevice& device, double stiffness) {
 constexpr int STATES = 3 + LOOP_DELAYS;  // place, speed, reading, and the forces that wait
 using Matrix = std::array<std::array<double, STATES>, STATES>;
 
-// One sample of the linear loop, column by column through the kernel. Speeds and forces are counted in what makes them as large as a place
-// of the same energy, so that the matrix is about as large as its eigenvalues are.
+// One sample of the linear loop, column by column through the kernel. Speeds and forces are scaled to a place of the same energy, so that the matrix
+// is about as large as its eigenvalues.
 Matrix loop_matrix(const WallDevice& device, double stiffness) {
   const core_f64::Plant plant = plant_of(device);
   core_f64::Wall wall = wall_of(device, stiffness);
@@ -101,8 +101,8 @@ double largest_stable(const std::function<bool(double stiffness)>& is_stable) {
 WallTrial wall_trial(const WallDevice& device, double stiffness) {
   const core_f64::Plant plant = plant_of(device);
   const core_f64::Wall wall = wall_of(device, stiffness);
-  // off its rest by less than it is pressed in, so that a loop that settles stays in contact; where the encoder and friction blur, by far
-  // more than they do, and to settle is to come to within twice of that
+  // off its rest by less than it is pressed in, so that a loop that settles stays in contact; with encoder or friction, by far more than they blur,
+  // and settling means coming within twice of that
   const double blur = device.encoder_step + device.coulomb / stiffness;
   const double away = blur > 0 ? 20 * blur : 1e-3;
   WallTrial trial;

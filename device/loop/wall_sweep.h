@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a rendered wall settles, over its stiffness and everything that limits it: many presses at once, on a device or on the core.
+// Finds where a rendered wall settles, over its stiffness and everything that limits it: many presses at once, on a device or on the core.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace wholehand {
 
-// Largest energies of the late samples of many cases; the device's or the core's.
+// Largest energies of the late samples of many cases, by device or core.
 using WallRunner = std::function<std::vector<double>(const std::vector<WallCase>& cases, int samples, int late)>;
 
-// `on`: core (in double), or a device (in float). `info` says which it is. Throws Error as choose_device.
+// `on`: core (in double), or a device (in float). `info` says which. Throws Error as choose_device.
 WallRunner open_wall_runner(const std::string& on, BackendInfo& info, double& kernel_seconds);
 
 // One press of a device against a wall.
@@ -23,14 +23,14 @@ struct WallPoint {
   WallDevice device;
   double stiffness = 0;
   int integrator = LOOP_EXACT, substeps = 1;
-  double energy = 0;  // of the late samples, over the one that is allowed: at most 1 where it settles
+  double energy = 0;  // of the late samples, over the allowed one: at most 1 if it settles
   bool settles() const { return energy <= 1; }
 };
 
-// Points that differ in stiffness alone, ascending, and what theory says of them.
+// Points that differ only in stiffness, ascending, and the theory's limits.
 struct WallColumn {
   std::vector<WallPoint> points;
-  WallLimits theory;  // `simulated`: the largest stiffness below every point that does not settle; 0 where the first does not
+  WallLimits theory;  // `simulated`: the largest stiffness below every point that does not settle; 0 if the first does not
 };
 
 // A map: columns of one kind, for a picture and for the table.
@@ -46,20 +46,20 @@ struct NamedDevice {
 };
 const std::vector<NamedDevice>& wall_devices();
 
-// All sheets: stiffness x wall damping x rate for every device (a quick run: for one, coarser); delays; encoder and friction; fingers;
-// integrators; and devices, fingers, walls and rates by chance, each 1 % below and above its linear limit. About 500,000 points, a quick
-// run 11,000.
+// All sheets: stiffness x wall damping x rate for every device (a quick run: for one, coarser); delays; encoder and friction; fingers; integrators;
+// and random devices, fingers, walls and rates, each 1 % below and above its linear limit. About 500,000 points; a quick run has 11,000.
 std::vector<WallSheet> wall_sheets(bool quick, std::uint64_t seed);
-// Fills in the energies and `simulated`. Calls `go_on` with the number of points done every some thousand points; false where it says no.
+// Fills in the energies and `simulated`. Calls `go_on` with the number of finished points every few thousand points, and stops with false if it
+// returns false.
 bool run_walls(
     std::vector<WallSheet>& sheets, const WallRunner& runner,
     const std::function<bool(std::size_t done)>& go_on = [](std::size_t) { return true; });
-// The largest stiffness that settles with the integrator, by the core, as wall_limits finds it.
+// The largest stiffness that settles with the integrator, by the core, found as by wall_limits.
 double integrator_limit(const WallDevice& device, int integrator, int substeps);
 std::size_t count_points(const std::vector<WallSheet>& sheets);
 
 std::string wall_csv(const std::vector<WallSheet>& sheets);  // a row a point
-// A row a column; each closes with the run's columns (`device,driver,version,seed`).
+// One row per column; each ends with the run's columns (`device,driver,version,seed`).
 std::string wall_limits_csv(const std::vector<WallSheet>& sheets, const std::string& run);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a recording keeps so that a reader notices any change: a checksum for each tick, and one for all that is known of the session.
+// Checksums that reveal any change to a recording: one for each tick, and one for everything known about the session.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ namespace wholehand {
 
 constexpr const char* CHECKSUM = "checksum";  // a variable over the ticks, and an attribute
 
-// Sets the attribute: the checksum of what header and fixed variables say, wherever it lies in the file. The number of records is left out, as it
-// grows.
+// Sets the attribute: the checksum of the contents of header and fixed variables, wherever they lie in the file. It leaves out the number of records,
+// which grows.
 void set_checksum(classic::Header& header, const std::string& fixed);
 bool has_right_checksum(const classic::Header& header, const std::string& fixed);
 
-// The checksums of records, in their order: of the values of a record and of those before it, wherever they lie in the record.
+// The checksums of records, in order: over the values of a record and of those before it, wherever they lie in the record.
 class RecordChecksums {
  public:
-  // Throws Error (usage), without the file's name, where the header has no variable for them.
+  // Throws Error (usage), without the file's name, if the header has no variable for them.
   explicit RecordChecksums(const classic::Header& header);
 
-  // Puts the checksum of the next record into it.
+  // Writes the checksum of the next record into it.
   void store(char* record);
   // Whether the next record has the right one.
   bool is_next(const char* record);

@@ -35,13 +35,13 @@ struct Attribute {
 struct Variable {
   std::string name;
   Type type = Type::float64;
-  std::vector<std::uint32_t> dimensions;  // numbers of them; the records first where it has them
+  std::vector<std::uint32_t> dimensions;  // numbers in its dimensions; the record dimension first if it has it
   std::vector<Attribute> attributes;
   // set by lay_out and parse_header
   bool is_record = false;
   std::uint64_t values = 0;  // of a record, or of all of it
   std::uint64_t size = 0;    // of these, padded to four bytes
-  std::uint64_t begin = 0;   // place in the file, of the first record
+  std::uint64_t begin = 0;   // position in the file, of the first record
 };
 
 struct Header {
@@ -50,7 +50,7 @@ struct Header {
   std::vector<Attribute> attributes;
   std::vector<Variable> variables;
   // set by lay_out and parse_header
-  std::uint64_t bytes = 0;         // its own length, without the room behind it
+  std::uint64_t bytes = 0;         // its own length, without the reserved room behind it
   std::uint64_t record_begin = 0;  // of the first record
   std::uint64_t record_size = 0;   // from one record to the next; 0: no variable has records
 
@@ -63,15 +63,14 @@ Attribute number_attribute(const std::string& name, const std::vector<double>& v
 Attribute integer_attribute(const std::string& name, const std::vector<std::int32_t>& values);
 Attribute byte_attribute(const std::string& name, const std::vector<std::int8_t>& values);
 
-// Gives every variable its size and place: the fixed ones `room` bytes behind the header, then the records.
+// Assigns sizes and positions to all variables: the fixed ones `room` bytes behind the header, then the records.
 void lay_out(Header& header, std::uint64_t room);
 
 std::string encode_header(const Header& header);
 
-// The header at the start of a file of `file_size` bytes, `start` being at least its first min(file_size, LARGEST_HEADER) bytes. Throws Error
-// (usage), without the file's name, where it is no CDF-2 file, or where what it says of itself cannot be: counts beyond its length,
-// variables without a place, before the end of the header or upon each other. Fixed variables lie wholly within the file; records may be
-// missing.
+// Parses the header at the start of a file of `file_size` bytes, `start` being at least its first min(file_size, LARGEST_HEADER) bytes. Throws Error
+// (usage), without the file's name, if it is not a CDF-2 file, or contradicts itself: counts beyond its length, variables without a position, before
+// the end of the header or overlapping. Fixed variables lie wholly within the file; records may be missing.
 Header parse_header(std::string_view start, std::uint64_t file_size);
 
 // ---- numbers, big-endian ----

@@ -64,7 +64,7 @@ void GraspCollector::report(GraspOutcome outcome) {
   behind_.reset();
 }
 
-// Counts what arrived and was spilt until now for the vessel's latest grasp: liquid is still in the air when a grasp ends.
+// Counts what arrived and was spilled until now for the vessel's latest grasp, because liquid is still in the air when a grasp ends.
 void GraspCollector::close_liquid(int vessel, const Volumes& arrived, const Volumes& spilt) {
   const auto v = static_cast<std::size_t>(vessel);
   if (!pouring_[v]) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grasps of a session from its ticks, one tick after the other. It keeps the ticks of one grasp and not those of the session.
+// Collects a session's grasps from its ticks, one by one. Keeps only the ticks of one grasp.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ class GraspCollector {
   // `rate` of the session in Hz; `force_max`: F_max, N; NaN: no grasp counts as saturated.
   GraspCollector(double rate, double force_max) : rate_(rate), force_max_(force_max) {}
 
-  // The ticks of the session, in the order of their numbers.
+  // Takes the ticks of the session, in the order of their numbers.
   void add(const Tick& tick);
 
-  // The session ends behind the last tick. All its grasps, in their order. To be called once, and last.
+  // Ends the session after the last tick and returns all its grasps in order. Call it once, and last.
   std::vector<GraspReport> finish();
 
  private:
@@ -37,8 +37,8 @@ class GraspCollector {
   void close_liquid(int vessel, const Volumes& arrived, const Volumes& spilt);
 
   double rate_, force_max_;
-  std::vector<Tick> held_;              // of the grasp that goes on, or whose outcome is still open; empty: there is none
-  std::optional<SessionState> behind_;  // state of the tick behind these; absent: the grasp goes on
+  std::vector<Tick> held_;              // of the grasp in progress, or whose outcome is still open; empty: none
+  std::optional<SessionState> behind_;  // state of the tick after these; absent: the grasp goes on
   std::array<std::optional<Pouring>, LIVE_VESSELS> pouring_;  // the latest grasp of each vessel
   Volumes arrived_{}, spilt_{};                               // at the last tick
   std::vector<GraspReport> grasps_;

@@ -131,7 +131,7 @@ double mean_between(std::span<const Tick> held, double Tick::*member, std::int64
   return sum.result().mean;
 }
 
-// From the mean over half a window up to the way's begin to that from its end on: where the tilt rests, and not while it changes.
+// From the mean over half a window before the way to the mean over half a window after it: where the tilt rests, not while it changes.
 double change_over(std::span<const Tick> held, double Tick::*member, const TiltWay& way, std::int64_t half) {
   const std::int64_t first = held[way.first].number, last = held[way.last].number;
   return mean_between(held, member, last, last + half) - mean_between(held, member, first - half, first);
@@ -208,7 +208,7 @@ GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost)
   }
   for (std::size_t k = 0; k < periods.size(); ++k) grasp.duration[k] = static_cast<double>(periods[k]) / rate;
   const TiltWay way = tilt_way(held, grasp.largest_tilt);
-  // what comes to rest only when the tilt is under way is no response to F_base
+  // a gap that comes to rest only during the tilt is no response to F_base
   const auto before_tilt = way.is_there ? held.first(way.first) : held;
   std::size_t at_rest = first_at_rest(before_tilt, rate);
   if (at_rest == before_tilt.size()) at_rest = held.size();

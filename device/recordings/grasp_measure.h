@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one grasp of a recorded session gives in the paper's terms. docs/session.md has every definition.
+// Measures one grasp of a recorded session in the paper's terms. docs/session.md has every definition.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@
 namespace wholehand {
 
 constexpr double RESPONSE_SPEED = 2e-3;         // m/s: a slower gap has come to rest,
-constexpr double RESPONSE_CALM = 50e-3;         // s: if for so long
-constexpr double SPEED_WINDOW = 20e-3;          // s: the gap's speed is the slope of a line fitted over so much
-constexpr double COURSE_WINDOW = 0.2;           // s: forces are averaged over so much before their courses are compared
+constexpr double RESPONSE_CALM = 50e-3;         // s: if it stays so for this long
+constexpr double SPEED_WINDOW = 20e-3;          // s: window of the line fit whose slope is the gap's speed
+constexpr double COURSE_WINDOW = 0.2;           // s: averaging window of forces before their courses are compared
 constexpr double EQUAL_FORCE = 0.1;             // N: a smaller difference counts as none
-constexpr double LEAST_ANALYSED = radians(30);  // a grasp that is tilted less is not analysed
-constexpr double MAINTAIN_CHANGE = radians(5);  // tilt that changes less is maintained
+constexpr double LEAST_ANALYSED = radians(30);  // a grasp that is tilted less is not analyzed
+constexpr double MAINTAIN_CHANGE = radians(5);  // a tilt that changes less counts as maintained
 
 struct MeanDeviation {
-  double mean = Tick::NONE, deviation = Tick::NONE;  // deviation: of a sample, NaN of fewer than two
+  double mean = Tick::NONE, deviation = Tick::NONE;  // deviation: of a sample, NaN for fewer than two
   std::size_t count = 0;
 };
 
-// Adds up numbers; those that are not finite are passed over.
+// Adds up numbers and skips those that are not finite.
 class MeanSum {
  public:
   void add(double value);
@@ -36,7 +36,7 @@ class MeanSum {
   double mean_ = 0, squares_ = 0;  // squares: of the differences from the mean
 };
 
-// How the user's grip force changes over a tilt against what the normal force rises.
+// The course of the user's grip force over a tilt, compared with the rise of the normal force.
 enum class GripCourse : std::uint8_t { not_analysed, equal, more, less, complex };
 constexpr int GRIP_COURSES = 5;
 extern const std::array<const char*, GRIP_COURSES> GRIP_COURSE_NAMES;  // "", "G1", .. "G4"
@@ -51,15 +51,15 @@ struct GraspReport {
   std::array<double, 3> duration{};     // in lift, tilt and maintain, s
   double response_time = Tick::NONE;    // from the step of F_base until the gap is at rest, s
   double tightened = Tick::NONE;        // grip force when it came to rest, N
-  MeanDeviation before, during, after;  // grip force in lift since then, over the tilt, and while it is maintained, N
-  double after_at_first = Tick::NONE;   // its mean over the first COURSE_WINDOW / 2 of what is maintained, N
+  MeanDeviation before, during, after;  // grip force in lift from then on, over the tilt, and while it is maintained, N
+  double after_at_first = Tick::NONE;   // its mean over the first COURSE_WINDOW / 2 of the maintained tilt, N
   double largest_tilt = 0;              // rad
-  double tilt_start = Tick::NONE;       // of the way to the tilt that is maintained, s
-  double tilt_time = Tick::NONE;        // how long that takes, s
+  double tilt_start = Tick::NONE;       // of the way to the maintained tilt, s
+  double tilt_time = Tick::NONE;        // duration of that way, s
   double normal_increase = Tick::NONE;  // of the normal force over it, N
   double grip_change = Tick::NONE;      // of the user's grip force over it, N
   double turning_back = Tick::NONE;     // how far the grip force goes both up and down, beyond what the normal force does, N
-  double saturated = 0;                 // for how long the feedback is at F_max, s; while tilted: the course is not analysed
+  double saturated = 0;                 // time with the feedback at F_max, s; while tilted: the course is not analyzed
   GripCourse course = GripCourse::not_analysed;
   GraspOutcome outcome = GraspOutcome::let_go;
   double guidance_distance = Tick::NONE;  // m
@@ -67,14 +67,13 @@ struct GraspReport {
   double arrived = 0, spilt = 0;          // until the vessel's next grasp, m3
 };
 
-// What the ticks of one grasp (held, of one vessel, at least one) say by themselves: all but outcome, arrived and spilt. `rate` in
-// Hz.
+// The results that the ticks of one grasp (held, of one vessel, at least one) give by themselves: all but outcome, arrived and spilled. `rate` in Hz.
 GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost);
 
 // How long a tick counts, in periods: until the next one.
 std::int64_t periods_of(std::span<const Tick> ticks, std::size_t k);
 
-// The smaller of the largest rise and the largest fall between two of the values, in this order: 0 where they go one way only.
+// The smaller of the largest rise and the largest fall between two values, in order: 0 if they only go one way.
 double turning_back(std::span<const double> values);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A session as the paper's Fig. 8 shows it: forces, tilt and grip force over time, the states shaded.
+// Plots a session like the paper's Fig. 8: forces, tilt and grip force over time, with the states shaded.
 #pragma once
 
 #include <string>

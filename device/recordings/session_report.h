@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics of a recorded session: grasp by grasp, by vessel and over all. docs/session.md has every definition.
+// Statistics of a recorded session: for each grasp, each vessel and all. docs/session.md has every definition.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ struct StateRun {
   double start = 0, duration = 0;  // s
 };
 
-// Grasps taken together: of a vessel, or all. Means and deviations over grasps, not over ticks.
+// Statistics of several grasps: of a vessel, or all. Means and deviations are over grasps, not over ticks.
 struct GraspSummary {
   std::string name;  // of the vessel; "all"
   int grasps = 0, lost = 0;
-  std::array<int, GRIP_COURSES> courses{};  // by GripCourse; those of the first are not analysed
-  // response in s, forces in N; the last three of analysed grasps only
+  std::array<int, GRIP_COURSES> courses{};  // by GripCourse; grasps of the first are not analyzed
+  // response in s, forces in N; the last three only for analyzed grasps
   MeanDeviation response_time, tightened, before, during, after, normal_increase, grip_change, tilt_time;
 };
 
@@ -43,12 +43,12 @@ struct SessionReport {
   std::array<double, SESSION_STATES> time_in_state{};  // s
   std::vector<StateRun> runs;
   std::vector<GraspReport> grasps;
-  std::vector<GraspSummary> vessels;  // one each, and one of all
+  std::vector<GraspSummary> vessels;  // one each, and one for all
   int lost = 0, destinations = 0;     // as the session counted
   bool task_done = false;
   std::vector<PouredAmount> amounts;  // by liquid
   Percentiles period, step, latency;  // over the recorded ticks, s
-  std::int64_t missed = 0;            // numbers that no tick has
+  std::int64_t missed = 0;            // numbers without a tick
 };
 
 // Without ticks: all empty.
@@ -56,7 +56,7 @@ SessionReport report_session(const Recording& recording);
 
 // For people, in mm, degrees, mL and ms.
 std::string session_table(const SessionReport& report);
-// One object in one line, SI units; null where there is no number.
+// One object in one line, SI units; null for a missing number.
 std::string session_json(const SessionReport& report);
 // A row each.
 std::string grasps_csv(const SessionReport& report);

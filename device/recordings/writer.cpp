@@ -125,7 +125,7 @@ void RecordingWriter::append_block() {
     [[maybe_unused]] const int cut =
         ftruncate(file_, static_cast<off_t>(end + added * header_.record_size));  // a rest does no harm
   }
-  // counted last: a process that is killed in between leaves a file without the block, but whole
+  // counted last: a process killed in between leaves a file without the block, but complete
   std::string count;
   classic::append_32(count, header_.records + added);
   if (put(count.data(), count.size(), classic::RECORD_COUNT_PLACE, error) == count.size()) {
@@ -143,7 +143,7 @@ bool RecordingWriter::is_in_place() const {
          named.st_ino == open.st_ino;
 }
 
-// Whether the partial file is where it was made, with all that was written to it: someone may have removed or cut it.
+// Whether the partial file is where it was made, with everything written to it: someone may have removed or cut it.
 bool RecordingWriter::is_all_there() {
   struct stat open {};
   if (fstat(file_, &open) != 0 || !last_error_.empty()) return last_error_.empty();
@@ -156,7 +156,7 @@ bool RecordingWriter::is_all_there() {
     reason_ = "its file was cut";
     last_error_ = fmt::format("{}: recording ended: {} was cut to {} of {} bytes during the session", path_, partial_,
                               readable_number(static_cast<std::uint64_t>(open.st_size)), readable_number(bytes()));
-    // the ticks that are left, so that nothing later makes up the others
+    // drops the remaining ticks, so that later ones do not follow a gap
     const std::uint64_t start = header_.record_begin, size = static_cast<std::uint64_t>(open.st_size);
     header_.records = size > start ? static_cast<std::uint32_t>((size - start) / header_.record_size) : 0;
   }
@@ -172,7 +172,7 @@ bool RecordingWriter::finish(RecordingEnd end) {
   set_checksum(header_, fixed_);
   const std::string start = classic::encode_header(header_);
   int error = 0;
-  // in place, over bytes that the file has: a full disk does not prevent it
+  // in place, over existing bytes, so that a full disk does not prevent it
   const bool is_ended = put(start.data(), start.size(), 0, error) == start.size() && fsync(file_) == 0;
   if (!is_ended && last_error_.empty()) give_up(error != 0 ? error : errno);
   const bool is_there = is_in_place();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of each liquid is where at a tick of a live session.
+// The amounts of each liquid, by place, at a tick of a live session.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace wholehand {
 
-// The paper's mixing board: of each liquid that a task wants what is in the target, m3.
+// The paper's mixing board: the volume in the target of each liquid that a task wants, m3.
 struct MixedAmount {
   std::string liquid;
   double arrived = 0, wanted = 0, spilt = 0;
 };
 std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick);
-// m3: of a liquid in the target, and of all vessels beside it. They allocate nothing.
+// m3: of a liquid in the target, and spilled from all vessels. They allocate nothing.
 double total_arrived(const Scene& scene, const Tick& tick, std::string_view liquid);
 double total_spilt(const Scene& scene, const Tick& tick);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A hand that holds a vessel of a session, as kernel 10 takes it: where it presses, and what the vessel weighs.
+// A hand that holds a vessel of a session, as input of kernel 10: its contacts, and the vessel's weight.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace wholehand {
 // Everything is in the vessel's own frame, in the world of the right hand; m, N.
 class HeldHand {
  public:
-  // `vessel` is at `pose`, and `posed` are the joints that rest on it, both in the world of the scene, whose [strength] is there.
-  // `touch_mask` as a tick has it.
+  // `vessel` is at `pose`, and `posed` are the joints that rest on it, both in the scene's world; the scene has [strength]. `touch_mask` as in a
+  // tick.
   HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& pose, const std::array<Triple, JOINT_COUNT>& posed,
            std::uint32_t touch_mask);
 
@@ -29,9 +29,9 @@ class HeldHand {
   Triple place_out(core_f64::Vec3 place) const;
   Triple turned_out(core_f64::Vec3 v) const;
 
-  // Up as the vessel sees it now.
+  // Up, in the vessel's present frame.
   core_f64::Vec3 up() const;
-  // The line from the thumb's tip to that of the index finger, unit; across the vessel where they are at one place.
+  // The line from the thumb's tip to the index finger's, unit; across the vessel if they coincide.
   core_f64::Vec3 pinch() const;
 
  private:
@@ -44,11 +44,11 @@ class HeldHand {
   core_f64::Vec3 center_{};
 };
 
-// The weight of a vessel with `volume` m3 of the scene's liquid (none: the empty vessel) while up is `up` in its frame. What is
-// above the lip weighs at the place of the rest, as in a Session.
+// The weight of a vessel with `volume` m3 of the scene's liquid (null: the empty vessel) with `up` in its frame. Liquid above the lip acts at the
+// center of the rest, as in a Session.
 core_f64::Wrench weight_of(const LiveScene& live, std::size_t vessel, double volume, core_f64::Vec3 up);
 
-// What the vessel's lip holds back of `volume` m3 while up is `up`.
+// The part of `volume` m3 that the vessel's lip holds back with `up` in its frame.
 double held_back(const LiveScene& live, std::size_t vessel, double volume, core_f64::Vec3 up);
 
 }  // namespace wholehand

@@ -17,7 +17,7 @@ Vec3 normalized_or(Vec3 v, Vec3 otherwise) {
 
 }  // namespace
 
-// As place_hand, with the axes given instead of line and roll: at roll 0 the little finger's side is against the gripper's second axis.
+// Like place_hand, with the axes given instead of line and roll: at roll 0 the little finger's side is opposite to the gripper's second axis.
 core_f64::Placement place_live_hand(const core_f64::Hand& hand, double closure, const Mat3& rotation, Vec3 middle, double scale,
                                     double& e1_x) {
   Vec3 slope{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene made ready for a live session: all that no tick changes.
+// A scene prepared for a live session: everything that no tick changes.
 #pragma once
 
 #include <vector>
@@ -12,26 +12,26 @@
 
 namespace wholehand {
 
-// A vessel of the scene made ready for a session, in the world of the right hand.
+// A vessel prepared for a session, in the world of the right hand.
 struct LiveVessel {
   core_f64::Vessel vessel;
   core_f64::ForceScale force;
-  core_f64::Load largest;                // upright at the scene's largest fill, or its own if that is more
+  core_f64::Load largest;                // upright at the scene's largest fill, or its own if larger
   std::vector<core_f64::Vec3> guidance;  // on its outer surface, vessel frame
   core_f64::Vec3 home{};                 // its place at the start
   double radius = 0;                     // at its widest, m
   double volume = 0;                     // at the start, m3
 };
 
-// All that a session has that no tick changes. Throws Error (usage): no vessel or more than LIVE_VESSELS, a hand or a vessel that is
-// physically impossible, vessels that overlap.
+// All constant data of a session. Throws Error (usage): no vessel or more than LIVE_VESSELS, a hand or a vessel that is physically impossible,
+// vessels that overlap.
 struct LiveScene {
   explicit LiveScene(const Scene& scene);
   Scene scene;
   core_f64::Hand hand;
   core_f64::Quadrature quadrature;
   std::vector<LiveVessel> vessels;
-  int tutorial = -1;  // the vessel to be carried to the destination: the first without liquid, where there is a task; -1: none
+  int tutorial = -1;  // the vessel to carry to the destination: the first without liquid, if there is a task; -1: none
 };
 
 }  // namespace wholehand

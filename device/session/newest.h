@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The newest value from one thread to another, where what came between does not matter.
+// Passes the newest value from one thread to another; older unread values are dropped.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace wholehand {
 
-// One thread puts, one takes; neither ever waits for the other: no locks, no system calls, no allocation. There are three slots: each
-// thread owns one and exchanges it for the third.
+// One thread puts, one takes; neither ever waits for the other: no locks, no system calls, no allocation. There are three slots: each thread owns one
+// and exchanges it for the third.
 template <class T>
 class Newest {
  public:
@@ -22,7 +22,7 @@ class Newest {
     back_ = between_.exchange(back_ | FRESH, std::memory_order_acq_rel) & ~FRESH;
   }
 
-  // False: nothing was put since the last was taken, and `value` was left alone.
+  // False: nothing was put since the last take, and `value` is unchanged.
   bool take(T& value) noexcept {
     if ((between_.load(std::memory_order_relaxed) & FRESH) == 0) return false;
     front_ = between_.exchange(front_, std::memory_order_acq_rel) & ~FRESH;
@@ -31,16 +31,16 @@ class Newest {
   }
 
  private:
-  static constexpr std::size_t CACHE_LINE = 64;  // what each thread writes lies apart from what the other does
-  static constexpr unsigned FRESH = 4;           // beside the number of a place: it was put and not yet taken
+  static constexpr std::size_t CACHE_LINE = 64;  // separates what the two threads write
+  static constexpr unsigned FRESH = 4;           // flag on a slot's number: put and not yet taken
   struct alignas(CACHE_LINE) Place {
     T value{};
   };
 
   std::array<Place, 3> places_{};
-  alignas(CACHE_LINE) unsigned back_ = 0;  // of the thread that puts
+  alignas(CACHE_LINE) unsigned back_ = 0;  // owned by the putting thread
   alignas(CACHE_LINE) std::atomic<unsigned> between_{1};
-  alignas(CACHE_LINE) unsigned front_ = 2;  // of the thread that takes
+  alignas(CACHE_LINE) unsigned front_ = 2;  // owned by the taking thread
 };
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Liquid of a live session: what each vessel holds, what runs over its lip, what falls, what arrives in the target and what is spilt.
+// Liquid of a live session: what each vessel holds, what runs over its lip, falls, arrives in the target and is spilled.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace wholehand {
 
-// Kernel 6 computes what a lip holds back at a tilt. The rest runs over it: an excess leaves with the time constant POUR_TIME (ours; a slow
-// tilt hardly has any), falls freely from the lip's lowest point, and arrives after the time of the fall if that point was above the
-// target's mouth, a level disc; else it is spilt. The sum of all is kept to rounding.
+// Kernel 6 computes what a lip holds back at a tilt. The excess leaves with the time constant POUR_TIME (ours; a slow tilt hardly has any) and falls
+// freely from the lip's lowest point. If that point was above the target's mouth, a level disc, it arrives after the time of the fall; otherwise it
+// is spilled. The total is conserved to rounding.
 class Pouring {
  public:
-  // World frame for the target. Without one all that pours is spilt.
+  // World frame for the target. Without a target, all that pours is spilled.
   Pouring(const std::vector<double>& volumes, const std::optional<TaskData>& task, double gravity, double rate);
 
-  // The vessel's liquid after `seconds` at a tilt whose lip's lowest point is at `lip` (world frame), at tick `number`. Returns the flow, m3/s.
+  // Updates the vessel's liquid for `seconds` at a tilt whose lip's lowest point is at `lip` (world frame), at tick `number`. Returns the flow, m3/s.
   double pour(int vessel, double held_back, core_f64::Vec3 lip, std::int64_t number, double seconds) noexcept;
-  // What has fallen by tick `number` arrives.
+  // Lands what has fallen by tick `number`.
   void land(std::int64_t number) noexcept;
 
   double volume(int vessel) const noexcept { return volume_[vessel]; }    // m3
@@ -44,7 +44,7 @@ class Pouring {
 };
 
 constexpr double POUR_TIME = 0.15;    // s
-constexpr double LONGEST_FALL = 2;    // s: 20 m; also where there is no gravity
+constexpr double LONGEST_FALL = 2;    // s: 20 m; also without gravity
 constexpr double LEAST_DROP = 1e-15;  // m3: less is rounding and stays
 
 }  // namespace wholehand

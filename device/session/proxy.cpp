@@ -10,15 +10,15 @@ using core_f64::Vec3;
 
 namespace {
 
-constexpr double FEASIBLE = 1e-8;     // m: a proxy this far inside is outside: ten times what iterations on one vessel stop at
-constexpr double NEAR = 1e-9;         // m: shorter moves, and moves that gain less, are none
-constexpr double TOUCHING = 1e-8;     // m: nearer to a surface than this it is slid along
-constexpr double LEAST_MOVE = 1e-7;   // m: shorter ones are not tried where a longer one gained nothing; 0.1 mN
+constexpr double FEASIBLE = 1e-8;     // m: a proxy no deeper than this is outside: ten times where iterations on one vessel stop
+constexpr double NEAR = 1e-9;         // m: shorter moves, and moves that gain less, do not count
+constexpr double TOUCHING = 1e-8;     // m: a proxy nearer to a surface than this slides along it
+constexpr double LEAST_MOVE = 1e-7;   // m: shorter ones are not tried if a longer one gained nothing; 0.1 mN
 constexpr double LEAST_STEP = 20e-6;  // m: of bare points, less than half of the thinnest wall that a scene may have
 constexpr double SKIN = 1e-6;         // m: of a bare point; on the surface itself an edge has a normal by rounding alone. 0.8 mN
-constexpr int WAYS_OUT = 12;          // of one vessel and then the other, in an edge between two
+constexpr int WAYS_OUT = 12;          // for one vessel and then the other, in an edge between two
 
-// Out of every vessel along the normals. False where it does not get out.
+// Moves it out of every vessel along the normals. False if that fails.
 bool move_out(const Obstacles& obstacles, Vec3& point, double radius) noexcept {
   for (int way = 0; way < WAYS_OUT; ++way) {
     const NearestVessel nearest = nearest_vessel(obstacles, point, radius);
@@ -52,14 +52,14 @@ Surroundings surroundings(const Obstacles& obstacles, Vec3 point, double radius)
   return here;
 }
 
-// Which way to go from a place, and how far it leads nearer to the goal, m.
+// A direction from a place, and how far it leads nearer to the goal, m.
 struct Heading {
   Vec3 way{};  // unit
   double length = 0;
   bool along = false;  // a surface, or the crease of two
 };
 
-// The part of the way that at most two surfaces do not hold back: all of it, along one of them, or along the crease in which they meet.
+// The part of the way that at most two surfaces leave free: all of it, along one of them, or along the crease in which they meet.
 Vec3 slide_along(Vec3 way, const std::array<Vec3, 2>& normals, int count) noexcept {
   bool held = false;
   for (int k = 0; k < count; ++k) held = held || glm::dot(way, normals[k]) < 0;
@@ -83,7 +83,7 @@ Heading heading_along(Vec3 way, const std::array<Vec3, 2>& normals, int count, d
   return {length > 0 ? slide / length : slide, along ? std::max(0.0, length - friction * depth) : length, along};
 }
 
-// A proxy on its way: where it is, the surface that it met besides the nearest one, and the longest move that may still gain something.
+// A proxy in motion: its place, the surface that it met besides the nearest one, and the longest move that may still gain something.
 struct Walk {
   const Obstacles& obstacles;
   Vec3 at, goal;
@@ -107,7 +107,7 @@ Heading Walk::heading(const Surroundings& here, double clear) const noexcept {
   if (here.vessel >= 0 && clear <= TOUCHING) normals[count++] = here.normal;
   if (has_met) normals[count++] = met.normal;
   Heading heading = heading_along(way, normals, count, friction);
-  // through the air to the tangent plane and no further: what overshoots it may pass by a crease
+  // through the air to the tangent plane and no further, because overshooting may pass a crease
   const double sinks = glm::dot(way, here.normal);
   if (!heading.along && sinks < 0) heading.length = std::min(heading.length, std::max(clear, clear * heading.length / -sinks));
   return heading;
@@ -118,7 +118,7 @@ bool Walk::try_less(double step) noexcept {
   return most > LEAST_MOVE;
 }
 
-// Whether a move whose end `there` is inside ran into another surface: it is then to go up to it, and from there along it as well.
+// Whether a move whose end `there` is inside ran into another surface; the proxy must then go up to it, and also slide along it from there.
 bool Walk::meets(const Surroundings& here, const Heading& heading, double step, const Surroundings& there) noexcept {
   if (there.vessel < 0 || there.is_same(here) || (has_met && there.is_same(met))) return false;
   const double closing = -glm::dot(heading.way, there.normal);
@@ -141,15 +141,15 @@ bool Walk::move() noexcept {
   const Surroundings here = surroundings(obstacles, at, radius);
   const double clear = std::max(0.0, here.separation);
   const Heading ahead = heading(here, clear);
-  // the center stays outside of the surface itself if it goes less than its distance; half the radius leaves room for the way back out. What
-  // slides goes through a surface only aslant: less than a wall's thickness brings it through none.
+  // the center stays outside of the surface if it goes less than its distance; half the radius leaves room for the way back out. A sliding proxy
+  // passes a surface only at a flat angle, so a move shorter than a wall's thickness crosses none.
   const double sure = clear + 0.5 * radius + LEAST_STEP;
   const double step = std::min({ahead.length, most, ahead.along ? std::max(sure, obstacles.thinnest - 3 * LEAST_STEP) : sure});
   if (step < NEAR) return false;
   Vec3 next = at + step * ahead.way;
   const Surroundings there = surroundings(obstacles, next, radius);
   if (step > sure && there.separation < -(0.5 * radius + LEAST_STEP)) {
-    // too far; unless another surface is right there
+    // too far, unless another surface is right there
     const Surroundings near_by = surroundings(obstacles, at + sure * ahead.way, radius);
     return (near_by.separation < -FEASIBLE && meets(here, ahead, sure, near_by)) || try_less(step);
   }
@@ -199,7 +199,7 @@ Proxy carry_proxy(const Obstacles& obstacles, const Proxy& before, Vec3 tip, dou
   Proxy proxy;
   proxy.place = walk.at;
   const Surroundings here = surroundings(obstacles, proxy.place, radius);
-  // one that is still on its way through the air touches nothing
+  // a proxy still on its way through the air touches nothing
   if (glm::length(tip - proxy.place) > NEAR && here.separation <= LEAST_STEP) {
     proxy.vessel = here.vessel;
     // in a crease the nearest surface may be the one that the tip has left

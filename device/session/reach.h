@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a program may ask of a session: the limits of a measurement that no gripper's guard has checked.
+// Limits on measurements that no gripper's guard has checked.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace wholehand {
 
 constexpr std::int64_t LAST_TICK = std::int64_t{1} << 53;  // a time is this number over the rate, as a double
-// m: as far as a scene's points may be. Further off no arm reaches, and differences lose their digits.
+// m: the limit of a scene's points. No arm reaches further, and differences lose their digits there.
 constexpr double FURTHEST_POSITION = 25;
 constexpr double WIDEST_GAP = 10;  // m, either way
 

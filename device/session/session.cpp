@@ -88,7 +88,7 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
   number_ = number;
 }
 
-// A vessel is felt from when both tips have left it, and their proxies with them: at the start, and after it was held.
+// A vessel is felt once both tips and their proxies have left it: at the start, and after it was held.
 void Session::settle_vessels() noexcept {
   for (int v = 0; v < obstacles_.count; ++v) {
     auto& standing = obstacles_.standing[v];
@@ -138,7 +138,7 @@ void Session::approach(const HandPose& pose, Tick& tick) noexcept {
   tick.user_force = tick.feedback;
 }
 
-// Both tips on the same vessel, one from each side, neither on its lid, at a gap that the hand can make: held from now on.
+// Both tips on the same vessel, one from each side, neither on its lid, at a possible gap: held from now on.
 bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcept {
   const std::optional<Touch> touch = touch_of_both_tips();
   if (!touch) return false;
@@ -179,12 +179,12 @@ std::optional<Session::Touch> Session::touch_of_both_tips() const noexcept {
   return touch;
 }
 
-// The hand closed on the proxies: none where it cannot, or where they lie on one side of the vessel.
+// The hand closed on the proxies: none if it cannot, or if they lie on one side of the vessel.
 std::optional<core_f64::Closing> Session::close_on(const Touch& touch, const HandPose& pose) const noexcept {
   const core_f64::Hand& hand = live_->hand;
   const Vec3 apart = proxies_[1].place - proxies_[0].place;
   const double gap = glm::length(apart);
-  // an open hand holds nothing: it could not let go
+  // an open hand holds nothing, because it could not let go
   const double widest = hand.scale * hand.gap_open - 2 * hand.contact_tolerance,
                narrowest = std::max(hand.scale * hand.gap_closed, radii_[0] + radii_[1]);
   if (!(gap > narrowest && gap <= widest)) return std::nullopt;
@@ -305,13 +305,13 @@ void Session::fill_held(const Pose& vessel, double mass, const core_f64::HeldFor
 
 bool Session::is_open(double device_gap) const noexcept {
   const std::array<double, 2> range = workspace_.device_gap();
-  // a vessel that the hand can hardly span takes half of the remaining gap: noise opens no fingers
+  // a vessel that the hand can hardly span gets half of the remaining gap, so that noise does not open the fingers
   const double open = std::max(range[1] - OPEN_MARGIN * (range[1] - range[0]), 0.5 * (grasp_.device_gap + range[1]));
   return device_gap - grasp_.device_gap > live_->scene.live.slip || (device_gap >= open && device_gap > grasp_.device_gap);
 }
 
-// lift, tilt or maintain: it turns from when the tilt has changed by the step since it came to rest, until it has changed by less than a
-// fifth of that within the window. What it is at rest is decided then, so that a slow beginning belongs to what was before.
+// lift, tilt or maintain: the vessel turns from when the tilt has changed by the step since it came to rest, until it has changed by less than a
+// fifth of that within the window. The state at rest is decided then, so that a slow beginning belongs to the earlier state.
 SessionState Session::turning(double tilt) noexcept {
   if (!is_turning_ && std::abs(tilt - rested_at_) >= TURN_STEP) {
     is_turning_ = true;
@@ -344,7 +344,7 @@ void Session::leave(const Pose& pose) noexcept {
   left_at_ = pose;
   left_for_ = 0;
   for (int k = 0; k < 2; ++k) proxies_[k] = {tips_[k], {}, -1, -1};
-  // a hand that holds goes through other vessels: those that it is in now are felt when it has left them
+  // a holding hand passes through other vessels: those that it is in now are felt once it has left them
   for (int v = 0; v < obstacles_.count; ++v)
     obstacles_.standing[v].is_solid = obstacles_.standing[v].is_solid && is_left(obstacles_.standing[v]);
 }

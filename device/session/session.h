@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A live session as a pure state machine: from what the gripper says to what the fingers feel, one tick after the other. The same states
-// at the same ticks give the same forces to the bit.
+// A live session as a pure state machine: from the gripper's state to the fingers' force, tick by tick. The same states at the same ticks give the
+// same forces to the bit.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@ namespace wholehand {
 
 class Session {
  public:
-  // `device_gap`: closed and open gap of the device, m. Throws Error (usage) where it is no range and the scene says none.
+  // `device_gap`: closed and open gap of the device, m. Throws Error (usage) if it is not a range and the scene gives none.
   Session(const Scene& scene, std::array<double, 2> device_gap);
 
-  // The tick of that number, which is greater than the one before. Fills the whole tick but read, fault, device, written and timing. Neither
+  // Computes the tick of that number, which is greater than the previous one. Fills everything but read, fault, device, written and timing. Neither
   // allocates nor throws. The state must be finite.
   void step(const GripperState& state, std::int64_t number, Tick& tick) noexcept;
 
@@ -31,7 +31,7 @@ class Session {
   const Workspace& workspace() const noexcept { return workspace_; }
 
  private:
-  // What is kept from the moment of a grasp. Vessel frame: `midpoint` and `direction` of the tips, their contacts' proxies.
+  // What is kept from the moment of the grasp. Vessel frame: `midpoint` and `direction` of the tips, their contacts' proxies.
   struct Grasp {
     double device_gap = 0;  // g_grasp, m
     double normal = 0;      // F_n then, N
@@ -79,22 +79,22 @@ class Session {
   void fill_hand(const HandPose& pose, double closure, Tick& tick) const noexcept;
   void fill_vessel(const Pose& pose, Tick& tick) const noexcept;
 
-  std::unique_ptr<const LiveScene> live_;  // where it is: obstacles point into it
+  std::unique_ptr<const LiveScene> live_;  // vessel poses; obstacles point into it
   Workspace workspace_;
   Pouring pouring_;
   Obstacles obstacles_;
   double period_;                // s
   std::array<double, 2> radii_;  // of thumb and index tip, m
-  std::int64_t number_ = -1;     // of the tick before; -1: none
+  std::int64_t number_ = -1;     // of the previous tick; -1: none
   std::array<core_f64::Vec3, 2> tips_{}, tips_before_{};
   std::array<Proxy, 2> proxies_{};
   double seconds_ = 0;  // since the tick before
   SessionState state_ = SessionState::free;
-  int vessel_ = -1;  // touched, held or coming back
+  int vessel_ = -1;  // touched, held or returning
   Grasp grasp_;
   bool is_turning_ = false;
   SessionState rest_ = SessionState::lift;  // when it does not turn
-  double rested_at_ = 0;                    // rad: tilt at which it came to rest
+  double rested_at_ = 0;                    // rad: tilt at which it last came to rest
   double turn_from_ = 0, turn_time_ = 0;    // rad, s: since when it has not changed while it turns, and for how long
   Pose left_at_;
   double left_for_ = 0;  // s
@@ -105,10 +105,10 @@ class Session {
 // Constants of ours; docs/method.md, "Live".
 constexpr double TURN_STEP = 5 * PI / 180;    // rad: a tilt that changes by less is maintained (the paper's)
 constexpr double TURN_REST = 1 * PI / 180;    // rad: less than this
-constexpr double TURN_WINDOW = 0.5;           // in so many s is rest
-constexpr double OPEN_MARGIN = 0.02;          // of the device's range of gaps: so near its end the fingers are open
-constexpr double RETURN_TIME = 0.5;           // s of a vessel on its way back
-constexpr double PUT_DOWN = 15e-3;            // m: let go so near to where it stood, it was put down and not lost
+constexpr double TURN_WINDOW = 0.5;           // rest means this many s
+constexpr double OPEN_MARGIN = 0.02;          // of the device's range of gaps: this near to its end the fingers are open
+constexpr double RETURN_TIME = 0.5;           // s of a vessel's return
+constexpr double PUT_DOWN = 15e-3;            // m: released this near to where it stood, it counts as put down and not lost
 constexpr double DESTINATION_RADIUS = 30e-3;  // m
 constexpr double FULL_WEIGHT = 5e-3;          // m of lifting over which the weight comes on
 

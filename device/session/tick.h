@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One tick of a live session as plain data: what the gripper said, what the session made of it, and what the fingers felt. It travels
-// through the ring to recorder and displays, and a recording is a list of ticks.
+// One tick of a live session as plain data: the gripper's state, the session's results, and the fingers' force. It travels through the ring to
+// recorder and displays, and a recording is a list of ticks.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace wholehand {
 
 constexpr int LIVE_VESSELS = 16;  // at most in a live scene
 
-// What a read gives: a value, nothing yet, or an error.
+// The result of a read: a value, nothing yet, or an error.
 enum class ReadOutcome : std::uint8_t { value, timeout, error };
 
 // A gripper's measurement at one moment. Device frame: right-handed, +x to the right and +y up for the person who holds it, +z towards
@@ -22,10 +22,10 @@ enum class ReadOutcome : std::uint8_t { value, timeout, error };
 struct GripperState {
   Triple position{};               // of the middle between the two tracked points, m
   Rotation rotation{NO_ROTATION};  // of the gripper in the device frame
-  double gap = 0;                  // between the two tracked points, or what the device has in its place, m
+  double gap = 0;                  // between the two tracked points, or the device's equivalent, m
   std::uint32_t buttons = 0;       // bit k: button k is pressed
-  std::uint32_t sequence = 0;      // another one with each measurement
-  double time = 0;                 // of the measurement by the device's own clock, s; 0 where it has none
+  std::uint32_t sequence = 0;      // changes with each measurement
+  double time = 0;                 // of the measurement by the device's own clock, s; 0 if it has none
 };
 
 // What is written to a gripper, device frame.
@@ -34,9 +34,9 @@ struct GripperForce {
   double grip = 0;  // on each finger, N; positive opens
 };
 
-// free: nothing is touched. touching: a tracked tip is on a vessel. Held is lift (upright since the grasp or again, within 5 degrees),
-// tilt (turning by 5 degrees or more within half a second) or maintain (tilted and still). slipped, let_go: the vessel was lost, or was put
-// down; it returns to where it stood, or the fingers have not left it since. released: no force any more.
+// free: nothing is touched. touching: a tracked tip is on a vessel. Held states are lift (upright since the grasp or again, within 5 degrees), tilt
+// (turning by 5 degrees or more within half a second) and maintain (tilted and still). slipped, let_go: the vessel was lost, or put down; it returns
+// to where it stood, or the fingers have not left it since. released: no force any more.
 enum class SessionState : std::uint8_t { free, touching, lift, tilt, maintain, slipped, released, let_go };
 constexpr int SESSION_STATES = 8;
 extern const std::array<const char*, SESSION_STATES> SESSION_STATE_NAMES;
@@ -46,13 +46,13 @@ constexpr bool is_held(SessionState state) {
 
 constexpr bool is_returning(SessionState state) { return state == SessionState::slipped || state == SessionState::let_go; }
 
-// Why a session let go.
+// Why a session released its force.
 enum class Fault : std::uint8_t {
   none,
-  read_error,   // the device answers with an error, or is gone
+  read_error,   // the device reports an error, or is gone
   timeout,      // it does not answer
   stale,        // the same measurement twice
-  not_finite,   // a number that is none, or a rotation that is none
+  not_finite,   // a number that is not finite, or an invalid rotation
   jump,         // faster than anything physical
   write_error,  // it takes no force
   late,         // steps over their budget
@@ -62,7 +62,7 @@ enum class Fault : std::uint8_t {
 constexpr int FAULTS = 10;
 extern const std::array<const char*, FAULTS> FAULT_NAMES;
 
-// Frames: world, that of the scene's places, +y up; vessel, as in docs/method.md. NaN: there is none (nothing held, say).
+// Frames: world, in which the scene's places lie, +y up; vessel, as in docs/method.md. NaN: no value (nothing held, say).
 struct Tick {
   static constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
 
@@ -72,9 +72,8 @@ struct Tick {
   GripperState device;  // as read
 
   SessionState state = SessionState::free;
-  int vessel = -1;  // touched, held or on its way back; -1: none
-  int guidance =
-      -1;  // number of the guidance point that is shown on each vessel that has any (modulo their count); -1 without a task
+  int vessel = -1;    // touched, held or returning; -1: none
+  int guidance = -1;  // number of the shown guidance point on each vessel that has any (modulo their count); -1 without a task
 
   // ---- the hand, world frame ----
   Triple middle{};                      // of the two mapped tips, m
@@ -82,17 +81,17 @@ struct Tick {
   double gap = 0;                       // of the hand, m
   double closure = 0;
   std::array<Triple, 2> tips{}, proxies{};  // thumb, index, m
-  // the pose that is kept while held: which joints touch (bit j) and which fingers are used (bit f)
+  // the pose kept while held: which joints touch (bit j) and which fingers are used (bit f)
   std::uint32_t touch_mask = 0, used_mask = 0;
 
-  // ---- the vessel that is touched, held or on its way back, world frame ----
+  // ---- the vessel that is touched, held or returning, world frame ----
   Triple vessel_place{};                  // of its origin, m
   Rotation vessel_rotation{NO_ROTATION};  // vessel to world
   double tilt = 0;                        // between its axis and up, rad
   double grasp_height = NONE;             // of the middle of the tips at the grasp, vessel frame, m
   double guidance_distance = NONE;        // of this grasp, m
 
-  // ---- liquid, by vessel, m3: in it, arrived in the target, spilt; what is missing of the sum is in the air ----
+  // ---- liquid, by vessel, m3: in it, arrived in the target, spilled; the rest of the sum is in the air ----
   std::array<double, LIVE_VESSELS> volume{}, arrived{}, spilt{};
   double flow = 0;  // over the held vessel's lip, m3/s
 
@@ -101,8 +100,8 @@ struct Tick {
   double weight = 0;                                         // of vessel and liquid, as far as it is lifted
   double torque = 0, exact_torque = 0;                       // N m
   double normal_force = 0, opening_force = 0, feedback = 0;  // kernel 7
-  double hold_force = NONE;                                  // what the physics asks for; infinite where the pinch is not antipodal
-  double user_force = 0;  // the user's grip force: feedback less what the torque added since the grasp
+  double hold_force = NONE;                                  // physically required; infinite if the pinch is not antipodal
+  double user_force = 0;  // the user's grip force: feedback less the torque's rise since the grasp
   GripperForce wanted;    // of the method, device frame
   GripperForce written;   // after limits, ramp and slew, device frame
 

@@ -20,7 +20,7 @@ class TickRing {
   TickRing(const TickRing&) = delete;
   TickRing& operator=(const TickRing&) = delete;
 
-  // False: it is full and the tick was not taken.
+  // False: it is full, and the tick was not added.
   bool push(const Tick& tick) noexcept {
     const std::size_t at = pushed_.load(std::memory_order_relaxed);
     if (at - popped_seen_ == ticks_.size()) {
@@ -32,7 +32,7 @@ class TickRing {
     return true;
   }
 
-  // False: it is empty and `tick` was left alone.
+  // False: it is empty, and `tick` is unchanged.
   bool pop(Tick& tick) noexcept {
     const std::size_t at = popped_.load(std::memory_order_relaxed);
     if (at == pushed_seen_) {
@@ -44,9 +44,9 @@ class TickRing {
     return true;
   }
 
-  // Ticks in it, from any thread; a moment later there may be others.
+  // Number of ticks in it, from any thread; it may change at any moment.
   std::size_t size() const noexcept {
-    // popped first: the other way round it could overtake what was seen to be pushed
+    // read popped first: otherwise it could overtake the pushed count that was read
     const std::size_t popped = popped_.load(std::memory_order_acquire);
     const std::size_t in_it = pushed_.load(std::memory_order_acquire) - popped;
     return in_it < ticks_.size() ? in_it : ticks_.size();
@@ -54,14 +54,14 @@ class TickRing {
   std::size_t capacity() const noexcept { return ticks_.size(); }
 
  private:
-  static constexpr std::size_t CACHE_LINE = 64;  // what each thread writes lies apart from what the other does
+  static constexpr std::size_t CACHE_LINE = 64;  // separates what the two threads write
 
   std::vector<Tick> ticks_;
   std::size_t mask_;
-  alignas(CACHE_LINE) std::atomic<std::size_t> pushed_{0};  // counts, never reduced: the place is their low bits
-  std::size_t popped_seen_ = 0;                             // by the thread that pushes
+  alignas(CACHE_LINE) std::atomic<std::size_t> pushed_{0};  // counts, never reduced; their low bits are the position
+  std::size_t popped_seen_ = 0;                             // written by the pushing thread
   alignas(CACHE_LINE) std::atomic<std::size_t> popped_{0};
-  std::size_t pushed_seen_ = 0;  // by the thread that pops
+  std::size_t pushed_seen_ = 0;  // written by the popping thread
 };
 
 }  // namespace wholehand

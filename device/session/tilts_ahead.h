@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Efforts for a held vessel at tilts that are still to come.
+// Efforts for a held vessel at tilts still ahead.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace wholehand {
 
-// One tilt, and the least effort there of the whole hand, in shares of its strength (infinite: no force holds the vessel): tilted
-// on over the side to which the vessel leans, and over the opposite one.
+// One tilt, and the least effort there of the whole hand, as shares of its strength (infinite: no force holds the vessel): tilted further over the
+// side to which the vessel leans, and over the opposite one.
 struct TiltAhead {
   double tilt = 0;  // rad
   double effort = 0, other = 0;
@@ -19,22 +19,22 @@ struct TiltAhead {
 constexpr double AHEAD_STEP = radians(10);   // between two tilts
 constexpr double MOST_AHEAD = radians(150);  // the last one
 constexpr double LEFT_AS_EMPTY = 0.05;       // of the liquid: a vessel with less left counts as empty
-constexpr double LEANS_FROM = radians(5);    // a vessel that is tilted less has no side yet: it is that to which the scene pours
+constexpr double LEANS_FROM = radians(5);    // a vessel tilted less has no side yet: it takes the one to which the scene pours
 constexpr std::size_t TILTS_AHEAD = 16;
 
-// The whole tens of degrees from the present tilt on, up to the first at which no more than LEFT_AS_EMPTY of the present liquid is
-// left in the vessel, or to MOST_AHEAD. What pours on the way no longer weighs.
+// Whole tens of degrees from the present tilt on, up to the first at which at most LEFT_AS_EMPTY of the present liquid is left, or to MOST_AHEAD.
+// What pours on the way no longer weighs.
 struct TiltsAhead {
   std::array<TiltAhead, TILTS_AHEAD> tilts{};
   std::size_t count = 0;
 
-  // The tilt of the largest effort on the side to which the vessel leans; null where there is none.
+  // The tilt of the largest effort on the side to which the vessel leans; null if there is none.
   const TiltAhead* hardest() const;
   // The largest effort over the other side.
   double other_worst() const;
 };
 
-// For a tick that holds a vessel; `hand` is the posture of that tick. Nothing where nothing is held or the scene has no strengths.
+// For a tick with a held vessel; `hand` is the posture of that tick. Nothing if nothing is held or the scene has no strengths.
 std::optional<TiltsAhead> tilts_ahead(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
                                       const std::array<Triple, JOINT_COUNT>& posed);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where every vessel of a live session is. A tick has only the vessel that is touched, held or on its way back; the others are where they
-// were last.
+// Tracks every vessel of a live session. A tick has only the vessel that is touched, held or returning; the others are where they were last.
 #pragma once
 
 #include <array>
@@ -17,9 +16,9 @@ struct VesselPose {
   Triple place{};
   Rotation rotation{NO_ROTATION};
 };
-using VesselPoses = std::array<VesselPose, LIVE_VESSELS>;  // in the scene's order; what it has no vessel for stays as it is made
+using VesselPoses = std::array<VesselPose, LIVE_VESSELS>;  // in the scene's order; entries without a vessel keep their first value
 
-// Follows a session tick by tick. Ticks that are left out may hide the end of a vessel's way.
+// Follows a session tick by tick. Skipped ticks may hide the end of a vessel's way.
 class VesselTracker {
  public:
   explicit VesselTracker(const Scene& scene);
@@ -35,7 +34,7 @@ class VesselHistory {
  public:
   // `ticks` must outlive it.
   VesselHistory(const Scene& scene, std::span<const Tick> ticks);
-  // At a tick by its place in the recording.
+  // At a tick, by its index in the recording.
   VesselPoses at(std::size_t tick) const noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a gripper's own frame to the hand in the world: [device] of a scene.
+// Maps a gripper's own frame to the hand in the world: [device] of a scene.
 #pragma once
 
 #include "core/real.h"
@@ -8,8 +8,8 @@
 
 namespace wholehand {
 
-// Where a gripper puts the hand: `middle` between the two tips, `rotation` of the gripper's axes, the hand's gap. A left hand is moved as the
-// right hand of the world mirrored in x, so these are of that world (docs/method.md).
+// Where a gripper puts the hand: `middle` between the two tips, `rotation` of the gripper's axes, the hand's gap. A left hand moves as the right hand
+// of the world mirrored in x, so these are in that world (docs/method.md).
 struct HandPose {
   core_f64::Vec3 middle{};
   core_f64::Mat3 rotation{1};
@@ -18,24 +18,24 @@ struct HandPose {
 
 class Workspace {
  public:
-  // `device_gap`: closed and open gap of the device itself, m; what [device] gap_mm says comes first. `hand_gap`: g(1), g(0), m, scaled.
-  // Throws Error (usage) where the device's gap is no range.
+  // `device_gap`: closed and open gap of the device itself, m; [device] gap_mm overrides it. `hand_gap`: g(1), g(0), m, scaled. Throws Error (usage)
+  // if the device's gap is not a range.
   Workspace(const Scene& scene, std::array<double, 2> device_gap, std::array<double, 2> hand_gap);
 
-  // Linear in place and gap, the gap kept within its ends. While the clutch button is pressed the hand stays where it is, and goes on from there.
+  // Linear in place and gap, with the gap clamped. While the clutch button is pressed the hand stays still, and continues from there.
   HandPose map(const GripperState& state) noexcept;
-  // A state of the gripper, without clutch, buttons and numbers, at which the hand is there. The gap is kept within the hand's.
+  // The gripper's state, without clutch, buttons and numbers, at which the hand is there. The gap is clamped to the hand's.
   GripperState unmap(const HandPose& pose) const noexcept;
   bool is_clutched() const noexcept { return is_clutched_; }
-  // The way back for a force in that world: as it is, but for the axes.
+  // Maps a force of that world back to the device: only the axes change.
   Triple to_device(core_f64::Vec3 force) const noexcept;
   core_f64::Vec3 to_world(const Triple& force) const noexcept;
-  // Between that world and the scene's own: mirrored in x for a left hand. The same both ways.
+  // Between that world and the scene's own: mirrored in x for a left hand. It is its own inverse.
   core_f64::Vec3 mirrored(core_f64::Vec3 v) const noexcept;
   core_f64::Mat3 mirrored(const core_f64::Mat3& rotation) const noexcept;
 
   std::array<double, 2> device_gap() const noexcept { return device_gap_; }
-  double gap_slope() const noexcept { return slope_; }  // of the hand's gap by the device's
+  double gap_slope() const noexcept { return slope_; }  // slope of the hand's gap over the device's
 
  private:
   core_f64::Mat3 axes_{1};  // device to world
@@ -47,14 +47,14 @@ class Workspace {
   double slope_ = 1;
   bool is_clutched_ = false;
   core_f64::Vec3 held_{};    // where the clutch holds the hand
-  core_f64::Vec3 offset_{};  // of all clutching so far
+  core_f64::Vec3 offset_{};  // sum of all clutching so far
 };
 
-// How many times the coupling's stiffness a gripper feels at its arm, which pushes two tips by `workspace_scale` of its own way, or at a
+// The factor by which a gripper feels the coupling's stiffness: at its arm, which pushes two tips by `workspace_scale` of its own way, or at a
 // finger, whose tip goes `gap_slope` times as far; the greater of both.
 double coupling_slope(double workspace_scale, double gap_slope);
 
-// From 0 to 1 over 0 to 1 without a jerk at either end; constant beyond.
+// A minimum-jerk rise from 0 to 1 over 0 to 1; constant outside.
 double minimum_jerk(double t);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A grip that the user of a simulated gripper sees, like a ghost hand on a screen.
+// A grip shown to the user of a simulated gripper, like a ghost hand on a screen.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@ namespace wholehand {
 
 // In the world of the right hand; at azimuth and offset 0. A copy allocates nothing.
 struct ShownGrip {
-  int vessel = -1;  // -1: no other grip than the planned one is shown
+  int vessel = -1;  // -1: only the planned grip is shown
   GripInput grip;
   double gap = 0;  // of the hand there, m
-  PourPath path;   // where the tips' middle is while it pours from this grip
+  PourPath path;   // middle of the tips while it pours from this grip
 };
 
-// Where the shown grips come from, for the haptic thread. Neither waits, allocates nor throws.
+// Supplies the shown grips to the haptic thread. Neither waits, allocates nor throws.
 class ShownGripSource {
  public:
   virtual ~ShownGripSource() = default;
-  // False: nothing new is shown since the last call, and `grip` was left alone. `tick`: the session's.
+  // Returns false, and leaves `grip` unchanged, if nothing new was shown since the last call. `tick`: the session's.
   virtual bool take(std::int64_t tick, ShownGrip& grip) noexcept = 0;
 };
 
-// From another thread, which puts them.
+// Another thread puts them.
 class ShownGrips final : public ShownGripSource {
  public:
   void put(const ShownGrip& grip) noexcept { newest_.put(grip); }

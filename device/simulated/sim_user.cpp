@@ -81,7 +81,7 @@ std::optional<ChosenGrip> best_roll(const Evaluator& evaluator, std::size_t vess
 
 std::vector<SimJob> plan_sim_jobs(const Scene& scene) {
   Scene bare = scene;
-  bare.arm.reset();  // the user goes to where the vessel is
+  bare.arm.reset();  // the user goes to the vessel's place
   const std::unique_ptr<Evaluator> evaluator = make_core_evaluator(bare);
   std::vector<SimJob> jobs;
   auto wanted = scene.task ? scene.task->amounts : std::vector<std::pair<std::string, double>>{};
@@ -136,7 +136,7 @@ SimUser::SimUser(const LiveScene& live, std::vector<SimJob> jobs, const Particip
   command_.obliquity = obliquity_from_ = obliquity_to_;
 }
 
-// A new try, at a vessel that the person has a guess of.
+// A new try, with the person's guess of the vessel.
 void SimUser::next_grasp() noexcept {
   traits_ = person_.grasp(static_cast<std::uint64_t>(++grasp_));
   const LiveVessel& vessel = live_.vessels[job().vessel];
@@ -145,7 +145,7 @@ void SimUser::next_grasp() noexcept {
   load_ = 0;
 }
 
-// The grip follows what opens the fingers, and a weight that is more than was expected. It takes the response time to do so.
+// The grip follows what opens the fingers, and a weight above the expected one, over the response time.
 void SimUser::follow_load(const SimSense& sense, double seconds) noexcept {
   const double surplus = std::max(0.0, sense.weight - traits_[Trait::weight_guess] * weight_);
   const double rise = sense.load + surplus / (2 * traits_[Trait::friction]);
@@ -154,7 +154,7 @@ void SimUser::follow_load(const SimSense& sense, double seconds) noexcept {
   command_.force = std::clamp(loaded_force(traits_, first_force(traits_, weight_), load_), 0.0, largest_force(traits_));
 }
 
-// Takes the grip shown for the job's vessel from now on, also in further tries. The person aims at it as well or as badly as at any other.
+// Takes the grip shown for the job's vessel from now on, also in further tries. The person's aim is as good or bad as at any other.
 void SimUser::take_shown_grip() noexcept {
   if (shown_.vessel != job().vessel) return;
   SimJob& own = jobs_[static_cast<std::size_t>(job_)];
@@ -169,7 +169,7 @@ Vec3 SimUser::on_path(double tilt) const noexcept {
   return job().path.middle(tilt) + up * Vec3(0, std::cos(tilt), -std::sin(tilt));
 }
 
-// How high the vessel is lifted off what it stands on: before it goes to a target, higher than that.
+// How high the vessel is lifted off its support; higher before it goes to a target.
 double SimUser::lift() const noexcept {
   if (job().kind != SimJob::Kind::pour) return LIFT;
   return std::max(LIFT, job().path.middle(0).y - (live_.vessels[job().vessel].home.y + job().grip.height));
@@ -274,7 +274,7 @@ void SimUser::plan_motion() noexcept {
   }
 }
 
-// Tilts until it runs, then so that the flow suits what is missing; upright again when it is there.
+// Tilts until it runs, then adapts the flow to what is missing; upright again when the amount is reached.
 void SimUser::pour(const SimSense& sense, double seconds) noexcept {
   const double missing = job().amount - sense.arrived;
   const double flow = std::clamp(missing / POUR_AHEAD, 0.0, QUICKEST_FLOW);
@@ -315,7 +315,7 @@ SimCommand SimUser::next(const SimSense& sense, double seconds) noexcept {
   return command_;
 }
 
-// What was meant did not succeed: let go, leave, and begin again.
+// The attempt failed: lets go, leaves, and begins again.
 void SimUser::fail() noexcept {
   has_failed_ = true;
   command_.grips_by_force = false;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who holds the simulated gripper: what a person would do with a scene, one intention after the other. No physics of the device
-// here.
+// The user of the simulated gripper: what a person would do with a scene, one intention after another. It has no physics of the device.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +15,29 @@
 
 namespace wholehand {
 
-// One thing to do with a vessel, in the world of the right hand.
+// One task with a vessel, in the world of the right hand.
 struct SimJob {
   enum class Kind { show, pour, carry };  // lift and tilt it; pour an amount into the target; carry it to the destination
   Kind kind = Kind::show;
   int vessel = 0;
   GripInput grip;     // where it is taken
   double gap = 0;     // of the hand there, m
-  double amount = 0;  // m3 of its liquid that are to be in the target
-  PourPath path;      // where the tips' middle is while it pours
+  double amount = 0;  // m3 of its liquid that should be in the target
+  PourPath path;      // middle of the tips while it pours
 };
 
-// A grip that the user would take, and how good it is.
+// A grip that the user would take, and its quality.
 struct ChosenGrip {
   GripInput grip;
   GripResult result;
-  double score = 0;  // of the grip; 1 more if it is antipodal, and 1 more if it is plausible
+  double score = 0;  // the grip's score; 1 more if it is antipodal, and 1 more if it is plausible
 };
-// The best roll among those that have the palm away from the user, with all else of `grip`. None is feasible: nothing.
+// The best roll, with all else of `grip`, among those with the palm away from the user. Nothing if none is feasible.
 std::optional<ChosenGrip> best_roll(const Evaluator& evaluator, std::size_t vessel, const GripInput& grip);
 
-// The jobs of a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point that is
-// shown then, without one where the grip scores best, always with the palm away from the user. Vessels that no such grip holds are
-// left out; throws Error (usage) where none is left.
+// The jobs of a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point shown at that time, without one where
+// the grip scores best, and always with the palm away from the user. Vessels that no such grip holds are left out; throws Error (usage) if none is
+// left.
 std::vector<SimJob> plan_sim_jobs(const Scene& scene);
 
 // Where the user steers the hand at a moment, and how it grips.
@@ -49,7 +48,7 @@ struct SimCommand {
   double tilt = 0;                // about the level part of that line, rad; the top goes away from the user
   double obliquity = 0;           // of that line, rad: the index finger is higher
   double roll = 0;                // of the hand about that line, rad
-  bool grips_by_force = false;    // holds a force; else goes to a gap
+  bool grips_by_force = false;    // holds a force; else moves to a gap
   double force = 0;               // that is held, N
   double gap = 0, gap_speed = 0;  // of the hand, m and m/s; positive opens
 
@@ -57,12 +56,12 @@ struct SimCommand {
   core_f64::Mat3 rotation() const noexcept;
 };
 
-// What the user sees and feels, a reaction time late.
+// What the user sees and feels, one reaction time late.
 struct SimSense {
   SessionState state = SessionState::free;
   int vessel = -1;
   double felt = 0;     // at the fingers, N
-  double load = 0;     // what of it has come since the grasp without the fingers' doing, N
+  double load = 0;     // its increase since the grasp that the fingers did not cause, N
   double weight = 0;   // at the arm, N
   double gap = 0;      // of the hand, m
   double arrived = 0;  // of the vessel's liquid in the target, m3
@@ -79,12 +78,12 @@ class SimUser {
   void follow_shown() noexcept { follows_ = true; }
   // What is on the screen now.
   void see(const ShownGrip& shown) noexcept { shown_ = shown; }
-  // The command after another `seconds`, which may not be long beside a reaction. Neither allocates nor throws.
+  // The command `seconds` later; `seconds` must be short beside a reaction. Neither allocates nor throws.
   SimCommand next(const SimSense& sense, double seconds) noexcept;
   bool is_done() const noexcept { return job_ >= static_cast<int>(jobs_.size()); }
   int vessel() const noexcept { return is_done() ? -1 : jobs_[job_].vessel; }
   int abandoned() const noexcept { return abandoned_; }  // jobs given up after ATTEMPTS lost grips
-  // What the person is like in the grasp that is under way, and its number, counted from 0.
+  // The person's traits in the current grasp, and its number, counted from 0.
   const Traits& traits() const noexcept { return traits_; }
   int grasp() const noexcept { return grasp_; }
 
@@ -112,7 +111,7 @@ class SimUser {
   int grasp_ = -1;
   double weight_ = 0;  // of the vessel that is taken, N
   double load_ = 0;    // that the grip force follows, N
-  double idle_ = 0;    // s for which nothing has been poured
+  double idle_ = 0;    // s without pouring
   int job_ = 0, attempts_ = 0, abandoned_ = 0;
   bool has_failed_ = false, has_run_ = false;
   bool follows_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Is the device's answer the core's answer? What `wholehand check` does.
+// Checks whether the device's answers are the core's: what `wholehand check` does.
 #pragma once
 
 #include <array>
@@ -19,11 +19,10 @@ struct CheckOptions {
   std::string on = "vulkan";  // see open_backend
   host::DeviceOptions device;
   bool is_quiet = false;                // no progress on stderr
-  const Scene* device_scene = nullptr;  // tests: what the device evaluates instead of the scene
+  const Scene* device_scene = nullptr;  // tests: evaluated by the device instead of the scene
 };
 
-// One quantity, and where its largest difference is: at a grip or, of the liquid, at a fill and tilt (rad); nowhere if
-// nothing differs.
+// One quantity, and the place of its largest difference: a grip or, for the liquid, a fill and tilt (rad); nowhere if nothing differs.
 struct CheckedQuantity {
   Comparison row;
   std::string vessel;
@@ -45,7 +44,7 @@ struct CheckedPair {
 
 struct CheckedVessel {
   std::string name;
-  std::size_t own = 0, between = 0;  // grips of the scene, and more between and around them
+  std::size_t own = 0, between = 0;  // the scene's grips, and added ones between and around them
 };
 
 struct CheckReport {
@@ -56,26 +55,26 @@ struct CheckReport {
   std::vector<CheckedVessel> vessels;
   CheckedPair translation;           // device in float, core in float
   CheckedPair cost;                  // core in float, core in double
-  bool is_of_precision = false;      // where the first does not hold: because of single precision, and not of the device
-  std::optional<CheckedPair> exact;  // device in double, core in double; none on a device without double
+  bool is_of_precision = false;      // the first fails because of single precision, not because of the device
+  std::optional<CheckedPair> exact;  // device in double, core in double; absent on a device without double
 };
 
-// What the comparisons come to.
+// The overall result of the comparisons.
 struct CheckVerdict {
   bool holds = false;
   std::string text;
   std::string
-      advice;  // what gives right numbers here, which the comparisons have shown; empty where it holds or nothing was compared
+      advice;  // what gives right numbers here, as the comparisons have shown; empty if the check holds or nothing was compared
 };
 
 // Lines on what exceeds float's domain in the scene, with the remedy.
 std::vector<std::string> check_warnings(const Scene& scene);
 
-// The error of a device, for a command that the core does not help: the remedy is a sweep's.
+// The error of a device, for a command that the core cannot help: the remedy is a sweep's.
 Error check_error(const Error& error);
 
-// Compares the device with the core in float and in double, per kernel and whole, on check_sample of every vessel. Throws Error (usage) for
-// the core as a device and what cannot be made ready, (failure) for a device that does not answer, both as check_error.
+// Compares the device with the core in float and in double, per kernel and as a whole, on check_sample of every vessel. Throws Error: (usage) the
+// core as a device, or what cannot be prepared; (failure) a device that does not answer; both as check_error.
 CheckReport check_scene(const Scene& scene, const CheckOptions& options);
 
 CheckVerdict verdict_of(const CheckReport& report);

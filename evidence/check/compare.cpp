@@ -26,10 +26,10 @@ constexpr const char* SAFE_TILT = "force beyond safe";  // where one side report
 const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
                                 FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
 
-// Whether an iteration of the grip took all its steps.
+// Whether an iteration of the grip used up its steps.
 constexpr std::uint32_t ALL_STEPS = STATUS_PROXY_UNSETTLED | 0x1Fu << STATUS_UNSETTLED_SHIFT;
 
-// Whether grip `i` of `a` has another outcome than grip `k` of `b`, whatever the bits `besides` of the status.
+// Whether grip `i` of `a` has another outcome than grip `k` of `b`, ignoring the bits `besides` of the status.
 bool differs(const GatheredPlanes& a, std::size_t i, const GatheredPlanes& b, std::size_t k, bool same_stop,
              std::uint32_t besides = 0) {
   return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) {
@@ -46,7 +46,7 @@ bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i, bo
 
 bool grazes(const GatheredPlanes& planes, std::size_t i) { return (planes.uint(FIELD_STATUS, i) & STATUS_GRAZING) != 0; }
 
-// The grip moved by `shift` m in every way that matters: along and about its axes, and in size.
+// The grip moved by `shift` m in every relevant way: along and about its axes, and in size.
 std::vector<GripInput> moved(const std::vector<GripInput>& grips, int way, double shift, double length) {
   std::vector<GripInput> result = grips;
   const double sign = way % 2 == 0 ? 1 : -1;
@@ -73,20 +73,20 @@ std::vector<GripInput> moved(const std::vector<GripInput>& grips, int way, doubl
 }
 constexpr int WAYS = 10;
 
-// The scene with tips thicker by these amounts, which is equivalent to meeting the surface within a tolerance.
+// The scene with tips thickened by these amounts, which is equivalent to meeting the surface within a tolerance.
 Scene with_tips(Scene scene, double thumb, double index) {
   scene.hand.fingers[0].radii[3] += thumb / scene.hand.scale;
   scene.hand.fingers[1].radii[4] += index / scene.hand.scale;
   return scene;
 }
 
-// The scene with hands that are stronger by this factor, which is what an effort within a tolerance comes to.
+// The scene with hands stronger by this factor, which is equivalent to an effort within a tolerance.
 Scene with_strengths(Scene scene, double factor) {
   for (double& digit : scene.strength->digits) digit *= factor;
   return scene;
 }
 
-// Whether the planes are there, and not only computed where they were.
+// Whether the planes exist, and not only for some grips.
 bool is_held(const GatheredPlanes& planes, int field) {
   return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
 }
@@ -143,7 +143,7 @@ class StateEfforts {
   GatheredPlanes planes_;
 };
 
-// Takes a difference into its row. Answers it where it is over the tolerance, else 0.
+// Enters a difference into its row. Returns it if it exceeds the tolerance, else 0.
 double note_difference(Comparison& entry, double scale, std::size_t vessel, std::size_t grip, double difference, double tolerance) {
   if (entry.worst == 0 && difference == 0) entry.tolerance = std::max(entry.tolerance, tolerance * scale);
   if (difference > entry.worst / scale) {
@@ -226,15 +226,15 @@ Comparison& Comparer::row(const std::string& kernel, const std::string& quantity
   return rows_.back();
 }
 
-// Where the difference is more than nothing: it is outside of its tolerance.
+// Marks a nonzero difference as outside its tolerance.
 void Comparer::count_outside(Comparison& entry, std::size_t vessel, std::size_t grip, double difference) {
   if (!(difference > 0)) return;
   ++entry.outside;
   outliers_.push_back({static_cast<std::size_t>(&entry - rows_.data()), vessel, grip, difference});
 }
 
-// How far the core's own answers move where grips, tips and strengths move by what either side may be off: of each number, and
-// whether a grip's outcome is another one then, or it grazes.
+// How far the core's own numbers move when grips, tips and strengths move by what either side may be off, and whether a grip's outcome then changes,
+// or it grazes.
 struct Comparer::Spread {
   std::vector<double> reals;
   std::vector<char> undecided, may_graze;
@@ -303,7 +303,7 @@ bool Comparer::places_differ(int field, const GatheredPlanes& a, const GatheredP
   return false;
 }
 
-// The state that a side names as the worst, by fills and tilts; nothing where it names none of the scene's.
+// The state that a side names as the worst, by fills and tilts; nothing if it names none of the scene's.
 std::optional<std::size_t> Comparer::worst_state(std::size_t vessel, const GatheredPlanes& side, std::size_t i) const {
   const std::vector<double> fills = scene_.liquid ? vessel_fills(scene_, scene_.vessels[vessel]) : std::vector<double>{0};
   const auto reported = [&](int field) { return side.real(side.fields.plane[field], i); };
@@ -313,7 +313,7 @@ std::optional<std::size_t> Comparer::worst_state(std::size_t vessel, const Gathe
   return (fill - 1) * scene_.tilts.size() + tilt - 1;
 }
 
-// Whether the sides' worst states are a question: they write two, and not only one that is rounded twice and the core's own.
+// Whether the sides' worst states must be compared: they name two, instead of one that is rounded twice and is the core's own.
 bool Comparer::asks_worst_state(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
                                 std::size_t i) const {
   const auto differ = [&](int field) {
@@ -325,8 +325,8 @@ bool Comparer::asks_worst_state(std::size_t vessel, const GatheredPlanes& a, con
   return !of_a || of_a != worst_state(vessel, b, i) || of_a != worst_state(vessel, truth, i);
 }
 
-// Beside an edge, the distances to edge and face differ by x^2 / 2r at x from where they are equal, so the face that is nearest after
-// rounding may be another one up to here, and the normal with it.
+// Beside an edge, the distances to edge and face differ by x^2 / 2r at x from where they are equal, so up to here rounding may make another face the
+// nearest, and change the normal with it.
 double Comparer::corner(std::size_t vessel) const {
   return std::sqrt(2 * tip_radius(scene_.hand) * allowed_.epsilon * (reach(scene_) + scene_.vessels[vessel].height));
 }
@@ -355,7 +355,7 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
         if (by_gate[k] != 0 && first + plane == fields.plane[FIELD_SCORE]) continue;  // 0 on the other side of the gate
         double& most = spread.reals[(first + plane) * n + chosen[k]];
         const double difference = figure_difference(other.real(first_of_other + plane, k), truth.real(first + plane, chosen[k]));
-        // with another outcome a number may be absent or infinite; with the same one it is where a lever just counts, or just does not
+        // with another outcome a number may be absent or infinite; with the same one, it is where a lever is at its threshold
         if (std::isfinite(difference) || differing[k] == 0) most = std::max(most, difference);
       }
   };
@@ -390,7 +390,7 @@ std::vector<char> Comparer::add_outcomes(std::size_t vessel, const GatheredPlane
   for (std::size_t i = 0; i < left_out.size(); ++i) {
     ++grips_;
     feasible_ += is_feasible(truth.uint(FIELD_STATUS, i)) ? 1 : 0;
-    // by the core, or by a side where the core's own answer is that near to grazing: a side alone may not take a grip out
+    // by the core, or by a side if the core's own answer is that near to grazing: a side alone may not exclude a grip
     if (grazes(truth, i) || (spread.may_graze[i] != 0 && (grazes(a, i) || grazes(b, i)))) {
       ++grazing_;
       left_out[i] = 1;
@@ -444,8 +444,8 @@ void Comparer::add_numbers(std::size_t vessel, const GatheredPlanes& a, const Ga
   }
 }
 
-// How much of a length at which a finger rests is in plane `k` of the field. Each side ends anywhere within one stop tolerance of the
-// surface: such lengths may differ by two, however little the finger itself moves, and what is made of them likewise.
+// How much plane `k` of the field depends on a length at which a finger rests. Each side ends anywhere within one stop tolerance of the surface, so
+// such lengths, and what is computed from them, may differ by two, however little the finger itself moves.
 double Comparer::rests(int field, std::size_t k) const {
   switch (field) {
     case FIELD_TERMS:
@@ -475,8 +475,7 @@ double Comparer::effort_floor(int field, std::size_t vessel, double truth) const
   return EFFORT_SHARE * (truth + scene_.gravity * glass.largest_mass) + 3 * std::sqrt(allowed_.epsilon) * strongest;
 }
 
-// The floor of a number that is an effort, which is the search's answer, or has one in it: the term of holding is the compared form of
-// the worst effort.
+// The floor of a number that is or contains an effort, which is the search's answer: the hold term is the compared form of the worst effort.
 double Comparer::search_floor(int field, std::size_t plane, std::size_t vessel, const GatheredPlanes& truth,
                               std::size_t grip) const {
   if (!has_effort(scene_)) return 0;
@@ -536,7 +535,7 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
       const GatheredPlanes& stricter = safe_a < safe_b ? a : b;
       const std::size_t state = first + std::min(safe_a, safe_b);
       const double normal = stricter.real(fields.plane[FIELD_NORMAL_FORCE] + static_cast<int>(state), i) - scene_.force.max;
-      // with efforts, by how much 1 / (1 + effort) is below that of an effort of 1
+      // with efforts, how far 1 / (1 + effort) is below that of an effort of 1
       const double hold =
           by_effort ? compared_form(FIELD_EFFORT, 1) - compared_form(FIELD_EFFORT, efforts.of(i, state))
                     : stricter.real(fields.plane[FIELD_HOLD_FORCE] + static_cast<int>(state), i) - scene_.force.grip_strength;
@@ -554,8 +553,8 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
   }
 }
 
-// The reported worst state is a choice among all: where the sides name two, each must be as bad as the worst by the core's
-// efforts, to the tolerance of the worst effort and to how far the effort of this state moves.
+// The reported worst state is a choice among all. If the sides name two, each must be as bad as the worst by the core's efforts, to the tolerance of
+// the worst effort plus this state's own spread.
 void Comparer::add_worst_states(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a,
                                 const GatheredPlanes& b, const GatheredPlanes& truth, const std::vector<char>& left_out,
                                 const Tolerance& tolerance) {
@@ -585,8 +584,7 @@ void Comparer::add_worst_states(std::size_t vessel, const std::vector<GripInput>
   }
 }
 
-// How far the core's own 1 / (1 + effort) of one state moves where grip, tips and strengths move by what either side may be off. It may
-// move more than that of the worst state does.
+// The spread of the core's own 1 / (1 + effort) of one state, which may exceed that of the worst state.
 double Comparer::moves_state(std::size_t vessel, const GripInput& grip, std::size_t state) const {
   const FieldSet fields = make_field_set({FIELD_EFFORT, FIELD_STATUS}, scene_);
   const auto form = [&](const Evaluator& core, const std::vector<GripInput>& grips) {
@@ -622,8 +620,8 @@ double Comparer::volume_tolerance(std::size_t vessel) const {
   return (4 * allowed_.level_tolerance + ROUNDINGS * allowed_.epsilon) * core_.constants(vessel).capacity;
 }
 
-// The level is solved to its tolerance of the capacity and sums of slices are rounded; a center of mass is compared by its moment, since
-// the last drop's place means nothing.
+// The level is solved to its tolerance of the capacity and sums of slices are rounded; a center of mass is compared by its moment, because the last
+// drop's place means nothing.
 void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b) {
   if (a.empty()) return;
   const double of_volume = volume_tolerance(vessel), of_moment = 2 * of_volume * scene_.vessels[vessel].height;

@@ -22,79 +22,78 @@
 
 namespace wholehand {
 
-// Allowed differences between two evaluations that are both right: numbers by rounding, and outcomes in how many grips.
-// Rounding and stop tolerance are those of the coarser precision of the two.
+// Allowed differences between two correct evaluations: of numbers by rounding, and of outcomes as a number of grips. Rounding and stop tolerance are
+// those of the coarser precision of the two.
 struct Allowance {
   double epsilon = 0;          // of the reals
   double stop_tolerance = 0;   // m
   double level_tolerance = 0;  // of the capacity
-  // Both sides stop at that tolerance. Where one goes on to a finer one, it may spend its steps on a corner of a lattice that the other
-  // was done with: which side took all of them is then no outcome.
+  // Both sides stop at that tolerance. If one continues to a finer one, it may use up its steps on a corner of a lattice that the other had finished
+  // with; which side used up its steps is then not an outcome.
   bool same_stop = true;
 };
 Allowance allowance(Precision precision);
 // Float on one side, double on the other.
 Allowance float_against_double();
 
-// Within the margin, discrete outcomes may differ in FLIP_SHARE of the grips in the long run. A sample contradicts that where as many
-// differences, or more, would occur in less than FLIP_SIGNIFICANCE of all samples if the share were exactly that. Strict, since grips
-// beside each other differ together, and since a check judges up to three comparisons and must not fail by chance.
+// Within the margin, discrete outcomes may differ in FLIP_SHARE of the grips in the long run. A sample contradicts that if at least as many
+// differences would occur in less than FLIP_SIGNIFICANCE of all samples with exactly that share. The limit is strict, because neighboring grips
+// differ together, and because a check makes up to three comparisons and must not fail by chance.
 constexpr double FLIP_SHARE = 1e-3;
 constexpr double FLIP_SIGNIFICANCE = 1e-6;
 // How many of `grips` compared grips may differ: 1 of 1, 3 of 72, 6 of 400, 10 of 1,536, 18 of 4,608.
 std::uint64_t allowed_flips(std::uint64_t grips);
 
-// Whether a field is compared number by number. In a scene with strengths a hold force is an effort of a state, which the core computes
-// whichever backend runs.
+// Whether a field is compared number by number. In a scene with strengths a hold force is an effort of a state, which the core computes for every
+// backend.
 bool is_compared_by_number(const Scene& scene, const Field& field);
 
-// Every field that the scene has and that a comparison needs: all but efforts and hold forces of single states, which only the core
-// computes.
+// Every field that the scene has and that a comparison needs: all except efforts and hold forces of single states, which only the core computes.
 FieldSet compared_fields(const Scene& scene);
 
-// A number as it is compared: an effort and the least friction as 1 / (1 + number), which is finite where they are not.
+// A number in its compared form: an effort and the least friction as 1 / (1 + number), which is finite even if they are not.
 double compared_form(int field, double value);
 
-// |a - b|: 0 for two NaN or two infinities of one sign, infinite where one side alone is no number.
+// |a - b|: 0 for two NaN or two infinities of one sign, infinite if only one side is NaN.
 double figure_difference(double a, double b);
 
-// Height and lean of the center of mass of glass and liquid, m; the glass's own share to the side is left out, which no state changes.
+// Height and lean of the center of mass of glass and liquid, m; the glass's own share to the side is left out, because no state changes it.
 std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid);
 
 // One quantity's comparison over all grips and vessels compared so far.
 struct Comparison {
   std::string kernel, quantity, unit;
   double worst = 0;                         // largest difference, in the unit
-  double tolerance = 0;                     // of that grip, in the unit; the largest where nothing differs
+  double tolerance = 0;                     // of that grip, in the unit; the largest if nothing differs
   std::size_t vessel = 0, grip = 0;         // where
-  double worst_ratio = 0;                   // largest difference over its own tolerance
+  double worst_ratio = 0;                   // largest ratio of a difference to its own tolerance
   std::uint64_t compared = 0, outside = 0;  // grips; outside: over the tolerance
 };
 
-// A grip whose discrete outcomes differ; inside: the core's own change within the allowance too.
+// A grip whose discrete outcomes differ; inside: the core's own outcome also changes within the allowance.
 struct Flip {
   std::size_t vessel = 0, grip = 0;
   bool inside = false;
 };
 
-// A grip that is outside of its tolerance, or whose outcome is another one beyond the margin: in which row, and by how much.
+// A grip that exceeds its tolerance, or whose outcome differs beyond the margin: in which row, and by how much.
 struct Outlier {
   std::size_t row = 0, vessel = 0, grip = 0;
-  double difference = 0;  // in the row's unit; of an outcome 1
+  double difference = 0;  // in the row's unit; 1 for an outcome
 };
 
-// For which grips the core's own answers are moved, at twenty evaluations a grip. Where needed: where the sides differ by more than the floor of the
-// tolerance. What is outside, excluded and grazing is the same for both; of the other grips the tolerance is the floor alone.
+// For which grips the core's own answers are moved, at twenty evaluations per grip. `needed`: if the sides differ by more than the floor of the
+// tolerance. The grips outside, excluded and grazing are the same for both; for the other grips the tolerance is then only the floor.
 enum class Spreads { where_needed, everywhere };
 
-// Gathers comparisons vessel by vessel.
+// Accumulates comparisons vessel by vessel.
 class Comparer {
  public:
   Comparer(const Scene& scene, const Evaluator& core, Allowance allowed, Spreads spreads = Spreads::where_needed);
 
-  // `a` and `b` evaluate `grips` of the vessel, both with the same fields. Grips that graze by the core, or within the allowance of
-  // that, are left out and counted, as are those whose discrete outcomes differ where the core's own change within the allowance
-  // (excluded); differing ones beyond that count as outside.
+  // `a` and `b` evaluate `grips` of the vessel, both with the same fields. Grips that graze by the core, or within its allowance, are left out and
+  // counted. So are those whose discrete outcomes differ while the core's own change within the allowance (excluded). Other differing ones count as
+  // outside.
   void add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b);
   void add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b);
 
@@ -106,7 +105,7 @@ class Comparer {
   const std::vector<Flip>& flips() const { return flips_; }
   const std::vector<Outlier>& outliers() const { return outliers_; }
   std::uint64_t allowed() const { return allowed_flips(grips_ - grazing_); }  // so many excluded are no evidence
-  // No number outside its tolerance, no more excluded than allowed, and not all of them left out.
+  // No number exceeds its tolerance, no more are excluded than allowed, and not all are left out.
   bool holds() const;
 
  private:
@@ -152,9 +151,9 @@ class Comparer {
   std::uint64_t grips_ = 0, grazing_ = 0, excluded_ = 0, feasible_ = 0;
 };
 
-// Whether single precision is why a device in float and the core in float differ (`translation`), and not the device: wherever they do, the
-// core in float is itself outside of the core in double (`cost`), and the device in float (`device`: against the core in double) is no
-// further off. All three compare the same grips of one scene.
+// Whether single precision, and not the device, is why a device in float and the core in float differ (`translation`): wherever they do, the core in
+// float itself exceeds the tolerance of the core in double (`cost`), and the device in float (`device`: against the core in double) is no further
+// off. All three compare the same grips of one scene.
 bool is_of_precision(const Comparer& translation, const Comparer& cost, const Comparer& device);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a variant costs in error and takes in time, on the same grips and states as all others.
+// Measures a variant's error and time on the same grips and states as all others.
 #pragma once
 
 #include <atomic>
@@ -16,19 +16,19 @@
 namespace wholehand {
 
 struct MeasureOptions {
-  std::string on;  // the device; as open_backend, but for "core"
+  std::string on;  // the device, as for open_backend, but not "core"
   int threads = 1;
   std::uint64_t seed = 1;
   std::size_t grips = 2048;   // of each vessel
   int runs = 7;               // timed
-  double run_seconds = 0.05;  // of one timed run, at least: the grips are gone through as often as that takes
-  // Variants that are held ready and timed in turns, the first run of each, then the second of each, ..
+  double run_seconds = 0.05;  // shortest timed run: repeats the grips as often as needed
+  // Number of variants held ready and timed in turns: the first run of each, then the second of each, ..
   std::size_t group = 32;
-  std::size_t group_bytes = std::size_t(1) << 30;  // .. fewer where their tables and chunks together take more
+  std::size_t group_bytes = std::size_t(1) << 30;  // .. fewer if their tables and chunks together take more
   const std::atomic<bool>* stop = nullptr;
 };
 
-// What is being done, for a user who waits: variants compared so far, and the name of the one under way.
+// Progress for a waiting user: variants compared so far, and the name of the current one.
 using MeasureProgress = std::function<void(std::size_t compared, const std::string& what)>;
 
 // Keeps the grips, the reference's answers and the evaluator used last.
@@ -37,7 +37,7 @@ class ErrorMeasure {
   // Throws Error as the evaluators do.
   ErrorMeasure(const Scene& scene, const MeasureOptions& options);
 
-  // A row a variant, in their order; fewer, and without times, where MeasureOptions::stop was set. Throws Error: the device fails.
+  // One row per variant, in order; fewer, and without times, if MeasureOptions::stop was set. Throws Error: the device fails.
   std::vector<ErrorRow> measure(const std::vector<ErrorVariant>& variants, const MeasureProgress& progress = {});
   ErrorRow measure(const ErrorVariant& variant) { return measure(std::vector<ErrorVariant>{variant}).front(); }
 

@@ -14,14 +14,14 @@ struct FrontPicture {
   std::string file;
   std::string title;
   std::string error_axis;  // its label, with the unit
-  double error_unit = 1;   // of ErrorRow's error to the axis'
+  double error_unit = 1;   // from ErrorRow's error to the axis's
   double (ErrorRow::*error)() const;
 };
 
-// error-time.svg by length and error-time-force.svg by force, in `folder`; the second only where some row has a force.
+// error-time.svg by length and error-time-force.svg by force, in `folder`; the second only if some row has a force.
 std::vector<FrontPicture> front_pictures(const std::string& folder, const std::vector<ErrorRow>& rows, const ErrorContext& context);
 
-// Every picture drawn that has a point: all variants, numbered where they are on the front, with the names of these beside it.
+// Every picture that has a point: all variants, numbered on the front, with their names beside it.
 std::vector<PictureFile> front_files(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows);
 
 }  // namespace wholehand

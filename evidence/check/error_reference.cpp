@@ -46,9 +46,8 @@ struct QuantityErrors {
   }
 };
 
-// Largest difference between the planes of a field at one grip. With `finite`, values that neither side has and infinite ones on
-// either side are passed over (a hold force is infinite where the pinch is not antipodal, which is an outcome and not a number): NaN
-// where none is left.
+// Largest difference between the planes of a field at one grip. With `finite`, skips values that neither side has and values that are infinite on
+// either side (a hold force is infinite if the pinch is not antipodal, which is an outcome and not a number): NaN if none is left.
 double plane_difference(const GatheredPlanes& a, const GatheredPlanes& b, int field, int planes, std::size_t i, bool finite) {
   double worst = finite ? std::numeric_limits<double>::quiet_NaN() : 0;
   for (int p = 0; p < planes; ++p) {
@@ -169,7 +168,7 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
       for (const HandQuantity& asked : HAND_QUANTITIES) {
         const int field = field_of_variable(asked.field);
         if (field < 0 || !a.fields.has(field) || !b.fields.has(field) || (asked.of_states && !forces)) continue;
-        // other points press, and that is an outcome
+        // other points press, which is an outcome
         if (asked.of_states && flipped != 0) continue;
         double error = plane_difference(a, b, field, 1, i, asked.of_states);
         if (std::isnan(error)) continue;
@@ -183,8 +182,8 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
   if (comparable.outcomes) row.feasible_flips = feasible_flips;
   if (!comparable.pose) return;
   row.touch_flips = touch_flips;
-  // how wrong a point may be that rests where the reference has it. Neither a tolerance looser than the precision's named one nor
-  // fingers that came to rest elsewhere are an excuse
+  // the error of a point that rests at the reference's place. Neither a tolerance looser than the precision's named one nor fingers that came to rest
+  // elsewhere are an excuse
   const Allowance allowed = allowance(row.variant.precision);
   double reach = 0;
   for (const VesselData& vessel : scene_.vessels) reach = std::max(reach, 0.1 * scene_.hand.scale + vessel.height);

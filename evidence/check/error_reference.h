@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The answers that all variants are held against, on the same grips and states, and how far a variant's are from them.
+// The reference answers for all variants, on the same grips and states, and a variant's distance from them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace wholehand {
 
-// What is compared of a grip. With `brackets` also both bounds of each state's effort.
+// The compared fields of a grip. With `brackets` also both bounds of each state's effort.
 FieldSet reference_fields(const Scene& scene, bool brackets = false);
 
 struct ReferenceOptions {
@@ -28,7 +28,7 @@ class ErrorReference {
   std::uint64_t feasible() const { return feasible_; }
   std::uint64_t grazing() const { return grazing_; }
 
-  // Planes and liquid by vessel; `core` has the variant's constants. They fill in the row's errors and flips.
+  // Planes and liquid by vessel; `core` has the variant's constants. Fills in the row's errors and flips.
   void compare(const std::vector<GatheredPlanes>& planes, const Evaluator& core, ErrorRow& row) const;
   void compare_liquid(const std::vector<std::vector<LiquidResult>>& liquid, const Evaluator& core, ErrorRow& row) const;
   ErrorFigures compare_distance(const Evaluator& core) const;
@@ -41,7 +41,7 @@ class ErrorReference {
   std::shared_ptr<const Evaluator> reference_;
   std::vector<GatheredPlanes> truth_;
   std::vector<std::vector<LiquidResult>> true_liquid_;
-  // by vessel: where the reference has joints whose skin is within LATTICE_BAND of the surface
+  // by vessel: whether the reference has joints whose skin is within LATTICE_BAND of the surface
   std::vector<std::vector<Triple>> nearby_;
   std::uint64_t feasible_ = 0, grazing_ = 0;
 };

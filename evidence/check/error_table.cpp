@@ -48,7 +48,7 @@ std::string force_error_text(double newtons) {
 using ErrorOf = double (ErrorRow::*)() const;
 using ErrorText = std::string (*)(double);
 
-// The fastest, or the first of the table that is as fast within the spread of the runs: variants come after what they vary.
+// The fastest, or the first of the table that is equally fast within the spread of the runs, because variants come after what they vary.
 const ErrorRow* fastest_under(const std::vector<ErrorRow>& rows, ErrorOf error, double limit) {
   const ErrorRow* best = nullptr;
   for (const ErrorRow& row : rows)

@@ -9,10 +9,10 @@
 
 namespace wholehand {
 
-// What the rows were made with.
+// How the rows were made.
 struct ErrorContext {
   std::string scene, version;
-  std::string device, driver;  // the core's machine where there is no other
+  std::string device, driver;  // the core's machine if there is no other
   std::uint64_t seed = 0;
   std::uint64_t grips = 0, feasible = 0, grazing = 0;  // of all vessels, by the reference
   std::size_t vessels = 0, states = 0;
@@ -21,14 +21,13 @@ struct ErrorContext {
   std::vector<std::string> notes;
 };
 
-// The line of column names, and one line a row; an empty cell is what a variant does not have or answers otherwise.
+// The line of column names, and one line per row; a cell is empty if a variant lacks the value or answers another question.
 std::string error_csv(const std::vector<ErrorRow>& rows, const ErrorContext& context);
 
-// The grips by vessel and index, for what the worst ones are: m and rad.
+// The grips by vessel and index, to look up the worst ones: m and rad.
 std::string error_grips_csv(const std::vector<std::vector<GripInput>>& grips);
 
-// The rows that no other beats in time and in `error` at once, the fastest first. Rows without a finite error, or with
-// too many flips, are not among them.
+// The rows that no other beats in both time and `error`, the fastest first, without rows that have no finite error or too many flips.
 std::vector<const ErrorRow*> pareto_front(const std::vector<ErrorRow>& rows, double (ErrorRow::*error)() const);
 
 // Markdown.

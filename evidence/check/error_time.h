@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every shortcut costs in error and gains in time: what `wholehand error-time` does.
+// Measures what every shortcut costs in error and gains in time: what `wholehand error-time` does.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct ErrorTimeOptions {
   std::string on = "vulkan";  // see open_backend; "core": no device
   bool quick = false;
   std::uint64_t seed = 1;
-  int threads = 0;  // that the core may take; 0: all
+  int threads = 0;  // for the core; 0: all
 };
 
 // Writes error-time.csv, its grips, error-time.md and pictures into the folder, each whole or not at all, and prints the report. Throws Error.

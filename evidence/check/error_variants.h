@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ways to evaluate a scene that `wholehand error-time` compares: each shortcut swept with the others at their defaults, and the
-// products that are of use.
+// The ways to evaluate a scene that `wholehand error-time` compares: each shortcut varied with the others at their defaults, and useful combinations.
 #pragma once
 
 #include <memory>
@@ -13,14 +12,14 @@
 
 namespace wholehand {
 
-// Which of its answers mean what the reference's do. A variant that answers another question has some that do not.
+// Which of a variant's answers mean the same as the reference's. A variant that answers another question has some that do not.
 struct Comparable {
   bool pose = true;      // separations, posed joints, proxies, touches
   bool states = true;    // the liquid, torque and forces
   bool outcomes = true;  // whether a grip is feasible
 };
 
-// The approximation that is swept, for the fit of its convergence; `step`: the error should be a power of it.
+// The varied approximation, for the fit of its convergence; `step`: the error should be a power of it.
 enum class SweptAxis { none, lattice, tolerance, gap_table, points, effort };
 
 struct ErrorVariant {
@@ -30,7 +29,7 @@ struct ErrorVariant {
   int threads = 0;  // of the core
   OutlineSource outline = OUTLINE_COPIED;
   EvaluatorOptions options;
-  std::string left_out;                // what it leaves out of the scene or the pipelines; "+ .." what it leaves in
+  std::string left_out;                // omitted parts of the scene or the pipelines; "+ ..": parts kept
   std::shared_ptr<const Scene> scene;  // null: the scene as it is
   Comparable comparable;
   SweptAxis axis = SweptAxis::none;
@@ -50,10 +49,10 @@ struct VariantChoice {
   bool outline_copies = false;   // .. and whose kernels copy them
 };
 
-// What the others are compared with: the core in double, the exact outline, the tightest tolerances.
+// The reference: the core in double, the exact outline, the tightest tolerances.
 EvaluatorOptions reference_options();
 
-// Without those that need what the scene lacks. Variants on one evaluator follow each other.
+// Leaves out those that need what the scene lacks. Variants on one evaluator follow each other.
 std::vector<ErrorVariant> error_variants(const Scene& scene, const VariantChoice& choice);
 
 }  // namespace wholehand

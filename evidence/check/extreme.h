@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Extreme scenes, on every backend, against the core in double.
+// Compares extreme scenes on every backend with the core in double.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace wholehand {
 
-// A scene, what it stresses and what is expected of it, each a line.
+// A scene, what it stresses and what is expected of it, one line each.
 struct ExtremeCase {
   std::string name, stresses, expected;
   Scene scene;
 };
 
-// From a scene whose file begins with `# Hard: ..` and `# Comes out: ..`; its name is the file's, without .toml. Throws Error
-// (usage) where one of the lines is missing.
+// From a scene whose file begins with `# Hard: ..` and `# Comes out: ..`; its name is the file's, without .toml. Throws Error (usage) if one of the
+// lines is missing.
 ExtremeCase extreme_case(const Scene& scene);
 
 struct ExtremeOptions {
@@ -29,8 +29,8 @@ struct ExtremeOptions {
   std::size_t grips = 200;  // of each vessel, at most; spread over the scene's
 };
 
-// One case on one backend. Differences are the largest from the core in double over all vessels, of the feasible grips whose
-// discrete outcomes are the same and that do not graze; 0 for the core in double itself.
+// One case on one backend. Differences are the largest from the core in double over all vessels, for feasible grips with equal discrete outcomes that
+// do not graze; 0 for the core in double itself.
 struct ExtremeRow {
   std::string name, backend, device, driver;
   Precision precision = Precision::full;
@@ -44,16 +44,16 @@ struct ExtremeRow {
   double effort = 0, push = 0, friction_needed = 0;                          // of the worst state; N
   std::uint64_t touch_flips = 0, touch_flips_outside = 0;  // grips that do not graze; outside: beyond the comparer's margin
   std::uint64_t feasible_flips = 0, feasible_flips_outside = 0;
-  std::uint64_t misplaced = 0;  // values that are not finite and should be: 0
+  std::uint64_t misplaced = 0;  // values that should be finite and are not: must be 0
   std::string first_misplaced;
   bool holds = true;  // to the comparer's tolerances of this precision
   std::vector<Comparison> comparisons;
 };
 
-// Core in double and in float; device in float, and in double where it can. Throws Error as open_backend does.
+// Core in double and in float; device in float, and in double if supported. Throws Error as open_backend does.
 std::vector<ExtremeRow> evaluate_extreme(const ExtremeCase& extreme, const ExtremeOptions& options = {});
 
-// CSV: a head, and one line a row; units are in the names of the columns.
+// CSV: a head, and one line per row; the column names have the units.
 std::string extreme_csv(const std::vector<ExtremeRow>& rows);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far forces may differ because of the load: the liquid's level is solved to a tolerance, and a tilt and a lever are rounded.
+// How far forces may differ because of the load: the liquid's level is solved to a tolerance, and tilts and levers are rounded.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report on where a haptic loop, and the kernels, stop being trustworthy.
+// Reports where a haptic loop, and the kernels, stop being trustworthy.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 namespace wholehand {
 
 struct StabilityOptions {
-  std::string folder;         // made where it is missing; files in it are replaced, each as a whole
+  std::string folder;         // made if missing; files in it are replaced, each as a whole
   std::string on = "vulkan";  // core, or a device
   bool quick = false;         // under a minute on two cores
-  std::uint64_t seed = 1;     // of the devices and walls by chance
+  std::uint64_t seed = 1;     // for the random devices and walls
   std::vector<ExtremeCase> extremes;
 };
 

@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// Texts of pictures: rates, damping, delay and encoder; and integrators.
+// Pictures as text: rates, damping, delay and encoder; and integrators.
 std::string wall_picture(const std::vector<WallSheet>& sheets);
 std::string integrator_picture(const std::vector<WallSheet>& sheets);
 

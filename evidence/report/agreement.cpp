@@ -40,14 +40,14 @@ constexpr StatusPart STATUS_PARTS[] = {
 constexpr const char* WORD_VARIABLES[] = {"used_mask", "touch_mask", "projected_tip_mask", "projected_finger_mask",
                                           "projected_inner_mask"};
 
-// One vessel of the scene as a scene of its own, so that what the comparison makes ready is that vessel alone.
+// One vessel as a scene of its own, so that the comparison prepares only that vessel.
 Scene scene_of_vessel(const Scene& scene, std::size_t vessel) {
   Scene one = scene;
   one.vessels = {scene.vessels[vessel]};
   return one;
 }
 
-// Real fields of which the file has a variable. Reported tilts can be judged only where the file has the forces of all states.
+// Real fields that the file has as variables. Reported tilts can be judged only if the file has the forces of all states.
 std::vector<int> fields_of_file(const SweepResult& result, const Scene& scene) {
   const bool has_states =
       result.find("feedback_force") && result.find("normal_force") && (has_effort(scene) || result.find("hold_force"));
@@ -123,7 +123,7 @@ std::string difference_text(const Comparison& row) {
   return row.unit == MILLIONTHS ? power_text(1e-6 * row.worst) : three_figures(row.worst) + " " + unit_for_people(row.unit);
 }
 
-// The three that people ask for first, of those there are.
+// The first three that exist of those that people ask for most.
 std::string largest_differences(const Agreement& agreement) {
   std::vector<std::string> parts;
   for (const std::string_view wanted : {"gap", "score", "peak feedback", "largest hold"}) {
@@ -133,7 +133,7 @@ std::string largest_differences(const Agreement& agreement) {
   return joined(parts, ", ");
 }
 
-// Whether the core has swept, so that it is compared with itself.
+// Whether the core computed the sweep, and is thus compared with itself.
 bool is_of_core(const ReportSource& source) { return source.result.origin().backend == "core"; }
 
 std::string agreement_text(const ReportSource& source, const Agreement& agreement) {
@@ -192,7 +192,7 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
     }
   }
   for (const Variable* variable : source.result.variables()) {
-    // a tilt has no row of its own: where all states are kept, the forces at it are compared
+    // a tilt has no row of its own: if all states are kept, the forces at it are compared
     const bool is_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
     const bool is_real = variable->type == NumberType::real && is_kept(fields, variable->field) &&
                          (is_tilt || is_compared_by_number(scene, field_row(variable->field)));

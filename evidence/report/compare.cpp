@@ -29,7 +29,7 @@ constexpr std::size_t GRIPS_AT_ONCE = 1 << 16;
 constexpr std::size_t MOST_CHANGES = 20, FIRST_GRIPS = 10, LONGEST_LINE = 120;
 constexpr double SAME_PLACE = 1e-9;  // m, rad or 1
 
-// A result in use with its scene. The lists are of each vessel and hand scale.
+// A result in use with its scene. It has a list for each vessel and hand scale.
 struct Side {
   Side(const char* letter, SweepResult& opened, const Scene& given)
       : name(letter), result(opened), scene(with_heights(opened, given)), plan(scene, keeps_vectors(opened.variables())) {
@@ -59,7 +59,7 @@ struct ListedGrip {
   double robust = std::numeric_limits<double>::quiet_NaN();  // the 10th percentile by which it is ranked
 };
 
-// The numbers that are compared of a vessel, and their digits behind the point.
+// The compared numbers of a vessel, and their decimals.
 enum : std::size_t { GRIPS, FEASIBLE, PLAUSIBLE, NOT_HELD, BEST_SCORE, LEAST_EFFORT, FIRST_EFFORT };
 constexpr std::array<std::pair<const char*, int>, 7> SUM_ROWS{{{"grips", 0},
                                                                {"feasible", 0},
@@ -123,7 +123,7 @@ bool is_same_place(const GripInput& a, const GripInput& b) {
   return std::all_of(differences.begin(), differences.end(), [](double d) { return std::abs(d) <= SAME_PLACE; });
 }
 
-// The listed grip at the place of another; null where there is none.
+// The listed grip at the place of another; null if there is none.
 const ListedGrip* find_listed(const VesselSums& sums, const GripInput& grip) {
   const auto end = sums.by_height.upper_bound(grip.height + SAME_PLACE);
   for (auto at = sums.by_height.lower_bound(grip.height - SAME_PLACE); at != end; ++at)
@@ -131,7 +131,7 @@ const ListedGrip* find_listed(const VesselSums& sums, const GripInput& grip) {
   return nullptr;
 }
 
-// What became of a grip that is not listed.
+// The fate of a grip that is not listed.
 std::string status_of(const Side& side, std::size_t vessel, std::uint64_t grip) {
   const auto is = [&](const char* name, double wanted) { return side.value(name, vessel, grip) == wanted; };
   for (std::size_t reason = 1; reason < REASON_NAMES.size(); ++reason) {
@@ -148,7 +148,7 @@ std::string status_of(const Side& side, std::size_t vessel, std::uint64_t grip) 
                                   : "implausible";
 }
 
-// Lines of a scene's text without blank lines and comments, each after the header of its table; that of a vessel with its name.
+// Lines of a scene's text without blank lines and comments, each after the header of its table; a vessel's header has its name.
 std::vector<std::string> scene_lines(const std::string& text) {
   std::vector<std::string> lines;
   std::string header;
@@ -180,7 +180,7 @@ std::vector<std::string> scene_lines(const std::string& text) {
   return lines;
 }
 
-// "- line" of what only the first text has and "+ line" of the second; a key's old and new value stand together.
+// "- line" for lines only in the first text and "+ line" for the second; a key's old and new value stand together.
 std::vector<std::string> changed_lines(const std::string& a, const std::string& b) {
   const std::vector<std::string> lines_a = scene_lines(a), lines_b = scene_lines(b);
   std::vector<std::array<std::string, 3>> found;  // key, sign, line
@@ -213,7 +213,7 @@ std::vector<std::string> changed_lines(const std::string& a, const std::string& 
   return changes;
 }
 
-// How both judge: what differs, and first of all whether scores follow one rule. Whether anything differs.
+// How both judge: the differences, and first whether scores follow one rule. Returns whether anything differs.
 bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   const SweepOrigin &from_a = a.result.origin(), &from_b = b.result.origin();
   part.changes = changed_lines(from_a.scene, from_b.scene);
@@ -258,7 +258,7 @@ CompareTable sums_table(const VesselSums& a, const VesselSums& b) {
   return table;
 }
 
-// The first grips of side a, and what they are in b.
+// The first grips of side a, and their values in b.
 CompareTable first_grips(const Side& a, std::size_t vessel_a, const VesselSums& sums_a, const Side& b, std::size_t vessel_b,
                          const VesselSums& sums_b) {
   CompareTable table{fmt::format("The first grips of {}, and what they are in {}", a.name, b.name),
@@ -315,7 +315,7 @@ bool add_vessel(const Side& a, std::size_t vessel_a, const Side& b, std::size_t 
   return !is_same_list || !std::equal(sums_a.sums.begin(), sums_a.sums.end(), sums_b.sums.begin(), is_same);
 }
 
-// Columns as wide as their widest cell: words at the left; of numbers all columns but the first at the right.
+// Columns as wide as their widest cell: words are left-aligned; in tables of numbers all columns but the first are right-aligned.
 std::string table_text(const CompareTable& table, bool is_of_words) {
   std::vector<std::vector<std::string>> rows{table.columns};
   rows.insert(rows.end(), table.rows.begin(), table.rows.end());

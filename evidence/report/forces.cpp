@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t MOST_LINES = 8;
 
-// One fill's line in words, for those who do not see it.
+// One fill's line in words, for screen readers.
 std::string line_text(const Scene& scene, const std::string& fill, const std::vector<double>& values) {
   const auto largest = std::max_element(values.begin(), values.end());
   return fmt::format("{}: {} N at {}°, at most {} N at {}°", fill, shown_number(values.front(), 2),
@@ -47,7 +47,7 @@ LineChart force_chart(const ReportSource& source, std::size_t vessel, const std:
   return chart;
 }
 
-// How far the hold force goes over all fills and tilts.
+// The range of the hold force over all fills and tilts.
 struct HoldExtent {
   double highest = 0;  // of the finite ones, N
   bool is_finite_once = false, is_finite_always = true;

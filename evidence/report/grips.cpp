@@ -23,7 +23,7 @@
 namespace wholehand {
 namespace {
 
-// The number in `name="1.5"` after `from`; NaN where there is none.
+// The number in `name="1.5"` after `from`; NaN if there is none.
 double attribute_after(const std::string& svg, std::size_t from, const std::string& name) {
   const std::size_t at = svg.find(" " + name + "=\"", from);
   return at == std::string::npos ? std::nan("") : std::strtod(svg.c_str() + at + name.size() + 3, nullptr);
@@ -35,7 +35,7 @@ void erase_group(std::string& svg, const std::string& id) {
   if (end != std::string::npos) svg.erase(begin, end + 4 - begin);
 }
 
-// Which fingers touch, for those who do not see the drawing.
+// Which fingers touch, in words for screen readers.
 std::string touching_text(const GripResult& result) {
   std::string text;
   for (int f = 0; f < FINGER_COUNT; ++f) {
@@ -51,7 +51,7 @@ bool has_robust(const ReportedGrips& best) {
   return std::any_of(best.grips.begin(), best.grips.end(), [](const BestGrip& grip) { return !std::isnan(grip.robust.mean); });
 }
 
-// With a plus where it is the largest tilt of the scene.
+// With a plus if it is the largest tilt of the scene.
 std::string safe_tilt_text(const BestGrip& grip) {
   return std::isnan(grip.safe_tilt) ? shown_number(grip.safe_tilt, 0) : range_text(degrees(grip.safe_tilt), grip.is_safe_to_end);
 }
@@ -118,7 +118,7 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
   table.end();
 }
 
-// One grip's drawing with what it shows in words; throws Error where it cannot be drawn.
+// One grip's drawing with its content in words; throws Error if it cannot be drawn.
 void draw_grip(MarkupWriter& html, const ReportSource& source, std::size_t list, const BestGrip& best,
                const std::vector<RankedReport>& reports, std::size_t k) {
   const GripReport& report = reports[k].report;
@@ -270,7 +270,7 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
   }
   std::vector<RankedReport> reports;
   if (source.core) {
-    // where there are efforts all are reported, otherwise only the drawn ones
+    // with efforts all are reported, otherwise only the drawn ones
     const std::size_t asked = reports_efforts(source.scene) ? best.grips.size() : std::min(DRAWN_GRIPS, best.grips.size());
     for (std::size_t k = 0; k < asked; ++k) {
       reports.push_back({best.grips[k].rank, grip_with_holding(source, list / scales, best.grips[k].grip)});

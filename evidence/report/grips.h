@@ -13,8 +13,8 @@ namespace wholehand {
 
 constexpr std::size_t DRAWN_GRIPS = 3, TABLED_GRIPS = 50;
 
-// The first TABLED_GRIPS of a list of grips (GripLists). Their ranks, scores and places are the list's; all else is the core's, in
-// double precision, where there is one (is_whole).
+// The first TABLED_GRIPS of a list of grips (GripLists). Their ranks, scores and places come from the list; everything else from the core in double
+// precision, if there is one (is_whole).
 struct ReportedGrips {
   std::vector<BestGrip> grips;  // the best first
   std::size_t listed = 0;       // in all
@@ -22,13 +22,11 @@ struct ReportedGrips {
 };
 ReportedGrips read_grips(const ReportSource& source, std::size_t list);
 
-// The table, and a figure with the drawings of the first DRAWN_GRIPS. What cannot be drawn is left out with a sentence. `id`: of the list, in the
-// page.
+// The table, and a figure with the drawings of the first DRAWN_GRIPS. A sentence replaces what cannot be drawn. `id`: of the list, in the page.
 void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best,
                  const std::string& id);
 
-// The front and the side view of a drawing by grip_svg, with larger letters, to be seen beside others. The whole drawing where its views are
-// not found.
+// The front and the side view of a drawing by grip_svg, with larger letters, for display beside others. The whole drawing if its views are not found.
 std::string front_and_side(const std::string& drawing);
 
 }  // namespace wholehand

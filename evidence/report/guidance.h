@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Touching and the distance from a guidance point in a report, as the paper's Table 1 and Fig. 7 show them for people.
+// Touching against the distance from a guidance point in a report, like the paper's Table 1 and Fig. 7 for people.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ constexpr std::size_t GUIDED_GRIPS = 1 << 16;  // of a vessel, at most
 struct GuidedSample {
   std::vector<GuidedGrip> grips;  // feasible and plausible
   std::size_t looked_at = 0;      // grips of the sweep
-  bool is_by_core = false;        // what touches is the core's, since the file does not have it
+  bool is_by_core = false;        // touching comes from the core, because the file lacks it
 };
 
-// The vessel's grips at sample_places. What is feasible, plausible and touches is the file's where it has that; the contacts are the core's.
+// The vessel's grips at sample_places. Feasibility, plausibility and touching come from the file if it has them; the contacts come from the core.
 // Needs the core and a vessel with guidance points.
 GuidedSample guided_grips(const ReportSource& source, std::size_t vessel);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How touching depends on how near to a guidance point a vessel is held: the paper's Table 1 and Fig. 7 on people, for grips.
+// How touching depends on a grip's distance from a guidance point: the paper's Table 1 and Fig. 7, for grips instead of people.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace wholehand {
 
-// Why grips have no correlation, in words; empty where there is one.
+// Why grips have no correlation, in words; empty if there is one.
 const char* lack_words(Lack lack);
 
-// A grip as it is counted.
+// A grip as counted.
 struct GuidedGrip {
   double distance = 0;  // from the guidance point, m
   int fingers = 0;      // used, 0..5
@@ -25,11 +25,11 @@ struct GuidedGrip {
 // One point of the hand.
 struct PointTouch {
   std::size_t touching = 0;                         // grips
-  double distance_touching = 0, distance_free = 0;  // mean, m; NaN where there is none such
+  double distance_touching = 0, distance_free = 0;  // mean, m; NaN if there is none
   Correlation correlation;                          // of touching with the distance
 };
 
-// Grips within a stretch of distances [from, to), m.
+// Grips within an interval of distances [from, to), m.
 struct DistanceBin {
   double from = 0, to = 0;
   std::size_t grips = 0;
@@ -43,7 +43,7 @@ struct GuidanceStatistics {
   double mean_fingers = 0;
   Correlation fingers;  // of the number of fingers used with the distance
   std::array<PointTouch, JOINT_COUNT> points;
-  std::vector<DistanceBin> bins;  // of one width, a round number of mm, at most MOST_DISTANCE_BINS; empty without grips
+  std::vector<DistanceBin> bins;  // all of one width, a round number of mm, at most MOST_DISTANCE_BINS; empty without grips
 };
 constexpr std::size_t MOST_DISTANCE_BINS = 12;
 
@@ -51,8 +51,8 @@ GuidanceStatistics guidance_statistics(const std::vector<GuidedGrip>& grips);
 
 // ---- places ----
 
-// Where a guidance point lies on a vessel, as in a session (docs/method.md, "Tasks"): first met on the way from outside to the axis, level, at
-// its height and azimuth; on the axis itself where nothing is met. Vessel frame, m.
+// The place of a guidance point on a vessel, as in a session (docs/method.md, "Tasks"): where a level line from outside to the axis, at its height
+// and azimuth, first meets the vessel; on the axis itself if it meets nothing. Vessel frame, m.
 Triple guidance_place(const Evaluator& core, std::size_t vessel, const GuidancePoint& point);
 
 // Distance of a grip from the nearest of the places: from the nearer of its two contacts, on the skin. `midpoint`, `gap`: of the tips.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps of a vessel in a report: over height and roll the best score, and the fingers and the force of the grip that has it; and the
-// least worst effort, whichever grip has that.
+// Maps of a vessel in a report over height and roll: the best score, with the fingers and the force of its grip; and the least worst effort, of any
+// grip.
 #pragma once
 
 #include <cstdint>
@@ -28,35 +28,34 @@ struct MapCell {
 struct GripMap {
   MapAxis heights, rolls;
   std::vector<MapCell> cells;  // height-major
-  bool knows_reasons = false;  // without them, a grip without a score is taken for an implausible one
+  bool knows_reasons = false;  // otherwise a grip without a score counts as implausible
   bool has_fingers = false, has_forces = false, has_efforts = false;
-  bool is_by_core = false;      // some of fingers and forces
-  const MapCell* best() const;  // null where no grip is feasible and plausible
+  bool is_by_core = false;      // some fingers and forces come from the core
+  const MapCell* best() const;  // null if no grip is feasible and plausible
 };
 
-// The counts of a vessel's grips. False: the file does not have what they need.
+// The counts of a vessel's grips. False: the file lacks what they need.
 bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& counts);
 
 // Whether there is a score to map.
 bool has_map(const ReportSource& source);
-// The variable with the worst effort of each grip; null where the file does not have it.
+// The variable with the worst effort of each grip; null if the file lacks it.
 const Variable* effort_variable(const ReportSource& source);
-// The best of equal scores is the first. Fingers and forces that the file does not have are the core's, where there is one.
-// `effort`: one real a grip, infinite where nothing holds the vessel and NaN where there is no plausible grip; null: there are no
-// efforts.
+// The best of equal scores is the first. Fingers and forces that the file lacks come from the core, if there is one. `effort`: one real per grip,
+// infinite if nothing holds the vessel and NaN if the grip is not plausible; null: there are no efforts.
 GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable* effort);
 inline GripMap read_map(const ReportSource& source, std::size_t vessel) {
   return read_map(source, vessel, effort_variable(source));
 }
 
-// Colors for all vessels alike, so that their maps can be compared.
+// One color scale for all vessels, so that their maps can be compared.
 struct MapScales {
   ColorScale score, fingers, peak_force, effort;
 };
 constexpr double MOST_MAPPED_EFFORT = 2;  // greater ones have its color
 MapScales map_scales(const std::vector<GripMap>& maps);
 
-// A figure of the maps there are, with the listed grips marked. `id`: of the vessel, in the page.
+// A figure of the available maps, with the listed grips marked. `id`: of the vessel, in the page.
 void write_maps(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const GripMap& map, const MapScales& scales,
                 const std::vector<Candidate>& best, const std::string& id);
 

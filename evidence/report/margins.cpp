@@ -27,12 +27,12 @@ constexpr const char* MARGINS_NOTE =
 
 constexpr double ENDLESS = std::numeric_limits<double>::infinity(), NO_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
-// Places of the terms in effective_weights; and one more that may speak for a grip.
+// Indices of the terms in effective_weights, and one for a further possible reason.
 enum Term : std::size_t { FINGERS_TERM, CONTACTS_TERM, DEPTH_TERM, POSTURE_TERM, FORCE_TERM, HOLD_TERM, SHARE_TERM };
 
 constexpr const char* NO_DEPTH = "0.0\u00a0mm";
 
-// How often `used` goes into `limit`, both at least 0.
+// The ratio of `limit` to `used`, both at least 0.
 double times_within(double limit, double used) { return used > 0 ? limit / used : ENDLESS; }
 
 // Unclamped, over the states that count; NaN without states.
@@ -50,7 +50,7 @@ std::string strength_share(const std::string& percent) {
   return fmt::format("the hardest state takes {} of the hand's strength", percent);
 }
 
-// A term that may speak for a grip: what it adds to the score, and its number as it is shown.
+// A possible reason for a grip: its contribution to the score, and its displayed number.
 struct Merit {
   std::size_t term = 0;
   double adds = 0;
@@ -99,7 +99,7 @@ std::string term_reason(const Scene& scene, const Merit& merit) {
   }
 }
 
-// What each term adds to the score of a grip, and last the share of its deviations that hold: lists are ranked by the deviations' score.
+// Each term's contribution to a grip's score, and last the share of its deviations that hold: lists are ranked by the deviations' score.
 std::vector<Merit> merits_of(const Scene& scene, const GripReport& report) {
   const ScoreTerms& terms = report.answer.score.terms;
   const std::array<double, 6> weights = effective_weights(scene),
@@ -111,15 +111,15 @@ std::vector<Merit> merits_of(const Scene& scene, const GripReport& report) {
   return merits;
 }
 
-// Whether a merit is a reason. A grip is not praised for what it would fail by, nor for holding where that takes more than the hand has.
+// Whether a merit is a reason. What would fail the grip first is no merit, nor is holding if that takes more strength than the hand has.
 bool is_reason(const Merit& merit, double worst, std::optional<Limit> weakest) {
   const bool is_weak = (merit.term == FORCE_TERM && weakest == Limit::force) ||
                        (merit.term == HOLD_TERM && (weakest == Limit::effort || weakest == Limit::friction || !(worst <= 1)));
   return !is_weak && merit.adds > 0;
 }
 
-// The words for at most two terms: of those in which the grip is better than the median of its list, those in which it is better than most
-// grips, beside the median. Where there are fewer, also the one that adds most, which others of the list may share; it is no depth.
+// The words for at most two terms in which the grip is better than the median of its list, first those in which it is better than most grips. If
+// there are fewer, also the term that adds most, which others of the list may share (but not a depth above 0).
 std::vector<std::string> best_reasons(const Scene& scene, const GripReport& report, const std::vector<RankedReport>& list,
                                       std::optional<Limit> weakest) {
   std::vector<std::vector<Merit>> others;

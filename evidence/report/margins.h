@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a grip is from each of its limits, and the sentence that says so.
+// A grip's margin to each of its limits, and the sentence that states it.
 #pragma once
 
 #include <optional>
@@ -11,23 +11,23 @@
 
 namespace wholehand {
 
-// What a grip can fail by: the strength of the hand, the friction of the vessel, the table below it, the force of the gripper.
+// What can fail a grip: the strength of the hand, the friction of the vessel, the table below it, the force of the gripper.
 enum class Limit { effort, friction, table, force };
 
-// How many times over the grip keeps to a limit: more than 1 within it, less than 1 beyond it; infinite where nothing comes near.
+// The factor by which the grip keeps a limit: above 1 within it, below 1 beyond it; infinite if nothing comes near.
 struct Margin {
   Limit limit = Limit::effort;
   double value = 0;
 };
 
-constexpr double TABLE_MARGIN_STEP = 10e-3;  // m of room above the table that add 1 to its margin, as the score's depth term has it
+constexpr double TABLE_MARGIN_STEP = 10e-3;  // m of room above the table that add 1 to its margin, as in the score's depth term
 
-// The margins that the grip has, in the order of the limits: 1 / worst effort, mu / friction needed, 1 + room / TABLE_MARGIN_STEP,
-// F_max / largest normal force. The table is absent without [table], and friction where none is enough. There are none for a grip
-// without holds: the scene has no [strength] or no tilts, or the grip is not feasible. `report` has the scene's own states.
+// The margins of the grip, in the order of the limits: 1 / worst effort, mu / friction needed, 1 + room / TABLE_MARGIN_STEP, F_max / largest normal
+// force. The table is absent without [table], and friction if none is enough. A grip without holds has none: the scene has no [strength] or no tilts,
+// or the grip is not feasible. `report` has the scene's own states.
 std::vector<Margin> grip_margins(const Scene& scene, const GripReport& report);
 
-// The smallest, the first of equal ones; nothing where there is none or all are infinite.
+// The smallest, the first in a tie; nothing if there is none or all are infinite.
 std::optional<Margin> smallest_margin(const std::vector<Margin>& margins);
 
 // A grip of a list, with its place there.
@@ -36,13 +36,13 @@ struct RankedReport {
   GripReport report;
 };
 
-// "This grip is good because ..; friction would fail first, because .. (margin 1.9)." The reasons are at most two terms of the score, or the
-// share of the deviations that hold, in which the grip is better than the median of its list, first where it is better than most grips. Where
-// there is one or none, the term that adds most to the score follows. The term that the smallest margin is about is no reason. Where a limit is
-// not kept: "Although .., friction fails, because ..". Empty for a grip without holds.
+// "This grip is good because ..; friction would fail first, because .. (margin 1.9)." The reasons are at most two of the score's terms and the share
+// of the deviations that hold, if the grip is better there than the median of its list; first come those in which it is better than most grips. If
+// there is one reason or none, the term that adds most to the score follows. The term that the smallest margin is about is no reason. If a limit is
+// exceeded: "Although .., friction fails, because ..". Empty for a grip without holds.
 std::string verdict(const Scene& scene, const GripReport& report, const std::vector<RankedReport>& list);
 
-// A table of margins, and of the efforts that they come from; nothing where no grip has holds. `name`: of the list.
+// A table of margins, and of the efforts behind them; nothing if no grip has holds. `name`: of the list.
 void write_margins(MarkupWriter& html, const Scene& scene, const std::vector<RankedReport>& grips, const std::string& name);
 
 }  // namespace wholehand

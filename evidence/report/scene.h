@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report says first: what was asked, on what it ran, and what was left out.
+// The first part of a report: the request, the machine, and what was left out.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace wholehand {
 
-// The scene in words and as it was written.
+// The scene in words and in its original text.
 void write_scene(MarkupWriter& html, const ReportSource& source);
 
 // Device, times and size; the sentences of `left_out`.
 void write_origin(MarkupWriter& html, const ReportSource& source);
 
-// What the sweep did not compute or keep, because its scene does not need it: a sentence each.
+// What the sweep did not compute or keep because its scene does not need it, one sentence each.
 std::vector<std::string> left_out(const ReportSource& source);
 
 }  // namespace wholehand

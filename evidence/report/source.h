@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report is made of: the result file, the scene that it names, and the core for what the file does not hold.
+// The sources of a report: the result file, the scene that it names, and the core for what the file lacks.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ struct ReportSource {
   std::string lists_file{};               // from this file
 };
 
-// `count` places of `all`, spread without a pattern and the same each time; all of them where there are no more.
+// `count` elements of `all`, spread irregularly but reproducibly; all of them if there are no more.
 std::vector<std::uint64_t> sample_places(std::uint64_t all, std::size_t count);
 
-// A grip by its place in the file, which repeats what one azimuth stands for.
+// A grip by its index in the file, which repeats what one azimuth stands for.
 GripInput stored_grip(const Plan& plan, const Scene& scene, std::size_t vessel, std::uint64_t place);
 
 // Planes of some grips by the core in double, on all threads. Needs the core.
@@ -39,8 +39,8 @@ GatheredPlanes planes_by_core(const ReportSource& source, std::size_t vessel, co
 // "12 mm", "10, 12, 15 mm", "10 to 20 mm (11 values)", "10 to 20 mm".
 std::string axis_text(const PlanAxis& axis, double scale, const std::string& unit);
 
-// "58.5 mm", "roll 22.0°, ..": the grip by those of its axes that vary in the sweep.
-// For a page; elsewhere numbers and degrees are written in another way.
+// "58.5 mm", "roll 22.0°, ..": the grip by those of its axes that vary in the sweep. Only for a page; other outputs format numbers and degrees
+// differently.
 std::string grip_text(const Plan& plan, const GripInput& grip, std::string (*number)(double value, int digits) = shown_number,
                       const char* degree = "°");
 

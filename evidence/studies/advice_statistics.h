@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What advice changes: the same people with and without it.
+// What advice changes, for the same people with and without it.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace wholehand {
 
-// Each number has three rows: subject "without", "with", and "difference" (with less without, person by person). A number that needs
-// grasps leaves out people who grasp in only one of the two sessions. Intervals are 95 % bootstrap intervals of the mean, resampling
-// persons; absent with fewer than two people. The same on any `threads`.
+// Each number has three rows: subject "without", "with", and "difference" (with minus without, person by person). A number that needs grasps leaves
+// out people who grasp in only one of the two sessions. Intervals are 95 % bootstrap intervals of the mean, resampling persons; absent with fewer
+// than two people. The same for any `threads`.
 std::vector<StudyRow> advice_rows(std::span<const AdvisedPerson> people, std::uint64_t seed, int resamples, int threads);
 
-// A sentence for each number: "Effort: .21 lower (.25 to .18 lower). Advice helps." Where the interval of the difference has 0 in
-// it, the sentence says that no difference is seen.
+// A sentence for each number: "Effort: .21 lower (.25 to .18 lower). Advice helps." If the interval of the difference contains 0, the sentence says
+// that no difference is seen.
 std::vector<std::string> advice_sentences(std::span<const StudyRow> rows);
 
 StudySection advice_section(std::vector<StudyRow> rows);

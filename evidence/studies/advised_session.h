@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does advice help? A virtual person does the mixing task as planned, and again with the advised grips.
+// Tests whether advice helps: a virtual person does the mixing task as planned, and again with the advised grips.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@
 
 namespace wholehand {
 
-// A larger effort counts as this one: beyond all of the strength twice the need is no other answer.
+// A larger effort counts as this one: beyond twice the strength, more makes no difference.
 constexpr double LARGEST_COUNTED_EFFORT = 2;
 constexpr double EFFORT_LOOKS = 20;  // Hz at which the effort of a held vessel is sampled
 
 // One session.
 struct AdvisedOutcome {
   double grasps = 0, lost = 0;
-  double effort = 0;    // of each grasp the largest that it came to, their mean; NaN: no grasp
+  double effort = 0;    // the largest of each grasp, averaged; NaN: no grasp
   double seconds = 0;   // until it was over
-  double is_whole = 0;  // 1: it came to its end by itself
+  double is_whole = 0;  // 1: it ended by itself
 
   double lost_share() const;  // of the grasps; NaN: none
 };
 
-// The same person with the same numbers of chance.
+// The same person with the same random numbers.
 struct AdvisedPerson {
   AdvisedOutcome without, with;
 };
@@ -46,14 +46,14 @@ class EffortWatch {
   const LiveScene& live_;
   VesselTracker tracker_;
   std::int64_t period_;  // ticks between two looks
-  int grasps_ = 0;       // that the last tick had counted
+  int grasps_ = 0;       // counted by the last tick
   std::vector<double> largest_;
 };
 
-// Ends early where `stop` is set. The advice is by the core, in step with the session. Nothing of a person whose hand holds no
-// vessel: no grasps. Throws Error (failure) where the advice ends or changes its device: the session would be one without advice.
+// Ends early if `stop` is set. The core advises in step with the session. Makes no grasps for a person whose hand holds no vessel. Throws Error
+// (failure) if the advice ends or changes its device, because the session would then be one without advice.
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop);
-// With an adviser of one's own.
+// With a custom adviser.
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop,
                              const AdviceLoop::AdviserOpener& open);
 

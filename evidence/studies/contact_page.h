@@ -10,7 +10,7 @@
 
 namespace wholehand {
 
-// Adds the words about the samples, a section for each pose, and one with what the words mean. `rows`: of contacts alone.
+// Adds the words about the samples, a section for each pose, and one on the meaning of the words. `rows`: of contacts alone.
 void add_contact_sections(StudyPage& page, const ContactPlan& plan, std::span<const StudyRow> rows);
 
 }  // namespace wholehand

@@ -41,8 +41,8 @@ std::vector<StudyVessel> study_vessels(const Scene& scene) {
   return vessels;
 }
 
-// Without what touching does not depend on: mass and load, efforts, tilts, and the table. Mass and its center are given, so that no
-// wall is needed but that of a shell, where fingers may touch it from within.
+// Without everything that touching does not depend on: mass and load, efforts, tilts, and the table. Mass and its center are given, so that only a
+// shell needs its wall, which fingers may touch from within.
 Scene bare_scene(const Scene& scene, const std::vector<StudyVessel>& vessels, Pose pose) {
   Scene bare = scene;
   bare.text.clear();
@@ -76,7 +76,7 @@ HandData without_flesh(HandData hand) {
   return hand;
 }
 
-// The palm away from the user, as in a session: the index finger is on the point's side, or the thumb.
+// Palm away from the user, as in a session: the index finger is on the point's side, or the thumb.
 double planned_azimuth(const Scene& scene, const GuidancePoint& point) {
   const double home = scene.hand.handedness == Handedness::left ? PI : 0;
   constexpr double ROUNDING = 1e-9;
@@ -99,7 +99,7 @@ ContactPlan::ContactPlan(const Scene& scene) : scene_(scene), vessels_(study_ves
     throw usage_error(fmt::format("{}: no vessel has guidance points, at which people grasp; add guidance_mm to a vessel",
                                   scene.file.empty() ? "the scene" : scene.file));
   for (const StudyVessel& vessel : vessels_) check_sample_name(scene, vessel.name);
-  prepare_hand(scene.hand, 2);  // people's hands are made to close: what other commands refuse would be mended without a word
+  prepare_hand(scene.hand, 2);  // people's hands are made to close: silently repairs what other commands refuse
   for (std::size_t k = 0; k < STUDY_POSES.size(); ++k) bare_[k] = bare_scene(scene, vessels_, STUDY_POSES[k]);
   // the mean person plans
   Scene mean = scene;
@@ -113,7 +113,7 @@ ContactPlan::ContactPlan(const Scene& scene) : scene_(scene), vessels_(study_ves
   for (StudyVessel& vessel : vessels_) plan_vessel(*core, vessel);
 }
 
-// As many times at each point as the paper's sample asks of its people.
+// Repeats each point as often as the paper's sample requires of its people.
 void ContactPlan::plan_vessel(const Evaluator& core, StudyVessel& vessel) {
   const std::vector<GuidancePoint>& points = scene_.vessels[vessel.place].guidance;
   const std::size_t of_one_round = PAPER_PEOPLE * points.size(), repeats = (vessel.sample + of_one_round - 1) / of_one_round;

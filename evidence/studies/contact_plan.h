@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which grasps a person makes in the experiment of contacts, and what comes of them.
+// The grasps that a person makes in the experiment of contacts, and their results.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace wholehand {
 
-// The poses that each grasp is evaluated in.
+// The poses in which each grasp is evaluated.
 constexpr std::array<Pose, 2> STUDY_POSES{Pose::paper, Pose::articulated};
 extern const std::array<const char*, STUDY_POSES.size()> STUDY_POSE_NAMES;
 
@@ -26,7 +26,7 @@ struct StudyVessel {
   std::size_t place = 0;  // in the scene
   std::string name;
   std::size_t sample = 0;           // grasps at the paper's size
-  bool is_of_paper = false;         // it takes the place of one of the paper's three, and counts in `all`
+  bool is_of_paper = false;         // stands for one of the paper's three, and counts in `all`
   std::size_t first = 0, last = 0;  // its planned grasps [first, last)
 };
 
@@ -34,20 +34,20 @@ struct PlannedGrasp {
   std::size_t vessel = 0;    // of the study
   std::size_t point = 0;     // guidance point
   std::uint64_t number = 0;  // names the grasp's own draws
-  GripInput grip;            // before the person's own habits and scatter
+  GripInput grip;            // before adding the person's own habits and scatter
   Triple place{};            // of the guidance point on the surface, vessel frame, m
 };
 
 // All grasps of one person. The same for every person of a scene; may be used by any thread.
 class ContactPlan {
  public:
-  // `scene` must outlive the plan. Throws Error (usage) where no vessel has guidance points, one has the name ALL_VESSELS, or
-  // the gap of the scene's hand does not fall as it closes.
+  // `scene` must outlive the plan. Throws Error (usage) if no vessel has guidance points, one is named ALL_VESSELS, or the gap of the scene's hand
+  // does not fall as it closes.
   explicit ContactPlan(const Scene& scene);
 
   const std::vector<StudyVessel>& vessels() const { return vessels_; }
   const std::vector<PlannedGrasp>& grasps() const { return grasps_; }
-  // Guidance points where no roll lets the mean person hold the vessel: "beaker1 at 65 mm".
+  // Guidance points at which the mean person cannot hold the vessel with any roll: "beaker1 at 65 mm".
   const std::vector<std::string>& unheld() const { return unheld_; }
 
   // The grasps of person `number`: grasps() in the first of STUDY_POSES, then in the next.
@@ -60,7 +60,7 @@ class ContactPlan {
   std::vector<StudyVessel> vessels_;
   std::vector<PlannedGrasp> grasps_;
   std::vector<std::string> unheld_;
-  std::array<Scene, STUDY_POSES.size()> bare_;  // the vessels of the study, with nothing but what touching needs
+  std::array<Scene, STUDY_POSES.size()> bare_;  // the vessels of the study, with only what touching needs
 };
 
 }  // namespace wholehand

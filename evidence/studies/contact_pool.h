@@ -13,12 +13,12 @@
 
 namespace wholehand {
 
-// People from whom samples are drawn: the first ones of a larger population. It bounds the memory.
+// People from whom samples are drawn: the first ones of a larger population, to bound the memory.
 constexpr std::uint64_t MOST_POOLED = 20'000;
 
-// How many people's grasps are kept: all, but at most MOST_POOLED, and fewer where each makes many (in all poses together).
+// How many people's grasps are kept: all, but at most MOST_POOLED, and fewer if each makes many (in all poses together).
 std::uint64_t pooled_people(std::uint64_t people, std::uint64_t grasps_of_person);
-// Says so where that is less than MOST_POOLED and not all of the people; else "".
+// A note if that is less than MOST_POOLED and not all of the people; else "".
 std::string pool_note(std::uint64_t people, std::uint64_t grasps_of_person);
 
 using Grasps = std::span<const ContactGrasp>;  // of one person in one pose, in the order of the plan
@@ -32,8 +32,8 @@ class VesselTallies {
 
   void add(std::size_t vessel, const ContactGrasp& grasp) { tallies_[vessel].add(grasp); }
   void add(Grasps grasps);
-  // The values of contact_statistics(): vessel after vessel, then all of the paper's together. There, each vessel has its weight in a
-  // sample: the grasps that a sample makes until enough of them hold. So the grasps of a sample have one weight.
+  // The values of contact_statistics(): vessel after vessel, then all of the paper's together. In the latter, a vessel's weight is the number of
+  // grasps that a sample makes until enough of them hold, so that all grasps of a sample have equal weight.
   std::vector<double> values() const;
 
  private:
@@ -46,20 +46,19 @@ class VesselTallies {
 // The grasps of the first people, in each pose.
 class ContactPool {
  public:
-  // `vessels`, at least one, and the plan must outlive it. They share out the grasps of a person in a pose, in their order.
+  // `vessels`, at least one, and the plan must outlive it. They divide the grasps of a person in a pose, in their order.
   ContactPool(const std::vector<StudyVessel>& vessels, std::uint64_t people);
   ContactPool(const ContactPlan& plan, std::uint64_t people) : ContactPool(plan.vessels(), people) {}
 
-  // A person's grasps: those of the first of STUDY_POSES, then those of the next. Only the first people are kept.
+  // A person's grasps: those in the first of STUDY_POSES, then those in the next. Keeps only the first people.
   void add(const std::vector<ContactGrasp>& of_person);
   std::uint64_t people() const { return grasps_.size() / (slots_ * STUDY_POSES.size()); }
 
-  // The grasps of a sample of the paper's size in a pose, vessel by vessel as they are made: those of PAPER_PEOPLE people, none
-  // twice, in an order drawn by chance, until as many hold as the vessel's sample has. Where fewer hold, it is all grasps of these
-  // people. The pool has at least PAPER_PEOPLE people.
+  // The grasps of a sample of the paper's size in a pose, vessel by vessel in order: those of PAPER_PEOPLE people, none twice, in random order, until
+  // as many hold as the vessel's sample has. If fewer hold, all grasps of these people. The pool has at least PAPER_PEOPLE people.
   std::vector<std::vector<const ContactGrasp*>> draw(std::size_t pose, std::uint64_t seed) const;
 
-  // What such a sample shows: the values of VesselTallies. All are NaN where the pool has fewer than PAPER_PEOPLE people.
+  // The values of VesselTallies for such a sample. All are NaN if the pool has fewer than PAPER_PEOPLE people.
   std::vector<double> sample(std::size_t pose, std::uint64_t seed) const;
 
  private:

@@ -14,16 +14,16 @@
 
 namespace wholehand {
 
-// The answers of a person: pose by pose, means over the person's own grasps of the paper's vessels.
+// The outputs of a person: pose by pose, means over the person's own grasps of the paper's vessels.
 const std::vector<std::string>& contact_answer_names();
 
-// Sums over people that come one by one.
+// Sums over people, added one by one.
 class ContactSensitivity {
  public:
   // `plan` must outlive it.
   explicit ContactSensitivity(const ContactPlan& plan);
 
-  // A person, and that person's grasps: those of the plan in the first of STUDY_POSES, then in the next.
+  // Adds a person and that person's grasps: those of the plan in the first of STUDY_POSES, then in the next.
   void add(std::uint64_t seed, std::uint64_t number, std::span<const ContactGrasp> grasps);
 
   std::vector<StudyRow> rows() const;

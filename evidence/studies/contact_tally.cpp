@@ -10,8 +10,8 @@
 namespace wholehand {
 namespace {
 
-// m: distances that differ by less do not vary. Each is off by what the search for its contact leaves: its tolerance, 1e-9 m, and
-// up to some ten times that where a fingertip meets the vessel at a flat angle. What hands scatter by is a thousand times larger.
+// m: distances that differ by less do not vary. Each has the error of the search for its contact: the tolerance, 1e-9 m, and up to some ten times
+// that if a fingertip meets the vessel at a flat angle. Hands scatter a thousand times more.
 constexpr double LEAST_DISTANCE = 1e-7;
 constexpr double ABSENT = std::numeric_limits<double>::quiet_NaN();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics of many grasps about how the hand touches: of a population, or of a sample from it. docs/study.md has each of them.
+// Statistics of many grasps about how the hand touches, for a population or a sample from it. docs/study.md has each of them.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace wholehand {
 
-// One grasp, as it is counted.
+// One grasp, as counted.
 struct ContactGrasp {
   double height = 0;                                            // of the thumb-index line, vessel frame, m
   double distance = 0;                                          // from the guidance point, m
   std::uint32_t touch_mask = 0;                                 // bit j: point j touches
   std::uint32_t tip_mask = 0, finger_mask = 0, inner_mask = 0;  // projected points, by role
   std::uint32_t used_mask = 0;                                  // bit f: finger f is used
-  bool is_held = false;                                         // the grip is feasible; else all above has no meaning
+  bool is_held = false;                                         // the grip is feasible; else the members above have no meaning
   bool is_plausible = false;                                    // and no part of the hand is deep in the vessel
 };
 
@@ -30,12 +30,12 @@ struct ContactStatistic {
 };
 const std::vector<ContactStatistic>& contact_statistics();
 
-// Keeps sums alone. The same grasps in the same order give the same bits.
+// Keeps only sums. The same grasps in the same order give the same bits.
 class ContactTally {
  public:
   ContactTally();
   void add(const ContactGrasp& grasp);
-  // All grasps of another one, each as if it had been made `weight` (above 0) times.
+  // Adds all grasps of another tally, each as if made `weight` (above 0) times.
   void add(const ContactTally& other, double weight);
   double grasps() const { return counts_[made]; }
   double held() const { return counts_[holding]; }
@@ -45,7 +45,7 @@ class ContactTally {
  private:
   enum { height, distance, measures };  // that correlations are with
   enum { tip, finger, inner, roles };
-  // What is counted. All but `made` is of the grasps that hold.
+  // Counts. All except `made` only cover the grasps that hold.
   enum {
     made,
     holding,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The experiment of contacts (the paper's section V-A): where the hands of a population touch, and what a sample of the paper's
-// size shows of it.
+// The experiment of contacts (the paper's section V-A): where the hands of a population touch, and what samples of the paper's size show.
 #pragma once
 
 #include <atomic>
@@ -15,7 +14,7 @@
 namespace wholehand {
 
 struct ContactStudy {
-  // Pose by pose; of each its vessels, and ALL_VESSELS where there are several.
+  // Pose by pose; for each its vessels, and ALL_VESSELS if there are several.
   std::vector<StudyRow> rows;
   std::vector<StudyRow> sensitivity;  // without a pose
   std::uint64_t grasps = 0;           // made, each in every pose

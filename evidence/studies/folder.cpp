@@ -26,7 +26,7 @@ void StudyFolder::write(const Scene& scene, const StudyOptions& options, const S
                         std::span<const StudyRow> rows) const {
   FileSet set;
   try {
-    // the table gets its name first: beside it a folder's study.nc is known as ours
+    // renames the table first: beside it a folder's study.nc is recognized as ours
     set.write(files_.csv, study_csv(rows), STUDY_REMEDY);
     write_study_dataset(set.temporary_path(files_.nc), scene, options, rows);
     set.write(files_.page, study_page(page), STUDY_REMEDY);

@@ -16,11 +16,10 @@ namespace wholehand {
 
 class StudyFolder {
  public:
-  // Makes the folder, takes its lock, and removes what a killed run left unfinished. Throws Error as prepare_study_folder and
-  // OutputLock do.
+  // Makes the folder, takes its lock, and removes what a killed run left. Throws Error as prepare_study_folder and OutputLock do.
   explicit StudyFolder(const std::string& folder);
 
-  // Writes the table, the dataset and the page. They get their names once all are whole. Throws Error (failure).
+  // Writes the table, the dataset and the page, and renames them once all are complete. Throws Error (failure).
   void write(const Scene& scene, const StudyOptions& options, const StudyPage& page, std::span<const StudyRow> rows) const;
 
   const StudyFiles& files() const { return files_; }

@@ -14,7 +14,7 @@ namespace wholehand {
 // `rows`: of force_rows.
 StudySection force_section(std::vector<StudyRow> rows);
 
-// For the terminal: a line for each choice of forces, and what matters more.
+// For the terminal: a line for each choice of forces, and which of the two forces matters more.
 std::string force_summary(std::span<const StudyRow> rows);
 
 }  // namespace wholehand

@@ -75,7 +75,7 @@ double gripped_share(std::span<const ForcesOfPerson> people, Members members, st
   return static_cast<double>(gripped) / static_cast<double>(members.size());
 }
 
-// How the odds of an event change with each newton of F_base and of F_range, and whether F_base comes first.
+// How each newton of F_base and of F_range changes the odds of an event, and whether F_base comes first.
 void add_coefficients(std::span<const ForcesOfPerson> people, Members members, const ForceEvent& event,
                       std::vector<double>& values) {
   std::vector<double> terms;

@@ -32,17 +32,17 @@ std::string choice_name(const ForceChoice& choice);
 constexpr int FORCE_ATTEMPTS = 3;    // of a person, until one succeeds
 constexpr int OFTEN = 2;             // losses of these
 constexpr double HELD_STILL = 0.8;   // s of a maintained tilt, after which an attempt has succeeded
-constexpr double SETTLED = 1;        // s after the grasp, from which on a grip can oscillate
-constexpr double SWING_WINDOW = 1;   // s in which an oscillating grip passes from one side of its mean
-constexpr int SWINGS = 4;            // to the other so often,
+constexpr double SETTLED = 1;        // s after the grasp, from when on a grip can oscillate
+constexpr double SWING_WINDOW = 1;   // s in which an oscillating grip crosses its mean
+constexpr int SWINGS = 4;            // this often,
 constexpr double SWING_SHARE = 0.1;  // by more than this share of the mean
-constexpr double LEAST_SWING = 0.1;  // and than this, N: the paper takes a smaller difference as none
+constexpr double LEAST_SWING = 0.1;  // and than this, N: the paper counts a smaller difference as none
 
 struct ForceOutcome {
-  bool has_gripped = false;  // else all below has no meaning: the person reached no grasp
+  bool has_gripped = false;  // else the members below have no meaning: the person reached no grasp
   bool oscillates = false;   // in an attempt, while nothing turned
-  int losses = 0;            // attempts that ended before they succeeded
-  double opening = 0;        // the furthest that the gripper opened beyond a grasp, m
+  int losses = 0;            // attempts that ended without success
+  double opening = 0;        // largest opening of the gripper beyond a grasp, m
 
   bool has_succeeded = false;  // an attempt was maintained
 
@@ -54,7 +54,7 @@ struct ForceOutcome {
 class ForceWatch {
  public:
   explicit ForceWatch(double rate) : rate_(rate) {}
-  // False: it is over. What comes then does not count.
+  // False: it is over. Later ticks do not count.
   bool take(const Tick& tick);
   const ForceOutcome& outcome() const { return outcome_; }
 
@@ -72,10 +72,10 @@ class ForceWatch {
   std::vector<double> window_;  // forces at rest, N
 };
 
-// The scene of the trials: one vessel of `scene`, at its place there, with the one task to show it.
+// The scene of the trials: one vessel of `scene`, at its place there, with the single task of showing it.
 Scene force_scene(const Scene& scene, std::size_t vessel);
 
-// `scene`: of force_scene, with the person's own hand; `jobs`: of that.
+// `scene`: of force_scene, with the person's own hand; `jobs`: its jobs.
 ForceOutcome try_forces(Scene scene, const std::vector<SimJob>& jobs, const Participant& person, const ForceChoice& choice,
                         std::uint64_t seed, const std::atomic<bool>& stop);
 

@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// One person's trials of a vessel. Ends early where `stop` is set.
+// One person's trials of a vessel. Ends early if `stop` is set.
 ForcesOfPerson forces_of_person(const Scene& scene, std::size_t vessel, std::uint64_t seed, std::uint64_t person,
                                 const std::atomic<bool>& stop);
 

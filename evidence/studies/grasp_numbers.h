@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a grasp gives to the statistics of sessions: NaN where it does not count; a share is the mean of 0 and 1. docs/study.md says
-// of which grasps each number is.
+// A grasp's contribution to the statistics of sessions: NaN if it does not count; a share is the mean of 0 and 1. docs/study.md says which grasps
+// count for each number.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of a study beside its scene.
+// Options of a study, besides its scene.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace wholehand {
 // How many people each experiment has by default.
 struct StudyPeople {
   std::uint64_t contacts = 10'000, forces = 1000, sessions = 500;
-  std::uint64_t advice = 0;  // ours, and no experiment of the paper: only where it is asked for
+  std::uint64_t advice = 0;  // ours, not the paper's: only on request
 };
 constexpr std::uint64_t ADVICE_PEOPLE = 200, QUICK_ADVICE_PEOPLE = 10;  // where it is
 constexpr StudyPeople QUICK_PEOPLE{500, 20, 20};
@@ -22,7 +22,7 @@ struct StudyOptions {
   std::uint64_t seed = 1;
   int resamples = STUDY_RESAMPLES;  // for the intervals
   int threads = 0;                  // 0: all
-  bool resumes = false;             // goes on with the folder's journal
+  bool resumes = false;             // continues the folder's journal
 };
 
 }  // namespace wholehand

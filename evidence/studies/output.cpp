@@ -26,7 +26,7 @@ void prepare_study_folder(const std::string& folder) {
   check_folder_files(folder, "study", std::span(&TABLE, 1), {});
   check_overwrites_marked(files.journal, STUDY_JOURNAL_START, "journal of wholehand study", "-o");
   check_overwrites_marked(files.page, STUDY_PAGE_MARK, "page of wholehand study", "-o");
-  // a NetCDF-4 file has no mark of ours near its begin: beside our table it is ours
+  // a NetCDF-4 file has no mark of ours near its beginning: beside our table it counts as ours
   if (!begins_with(files.csv, STUDY_CSV_START)) check_overwrites_nothing(files.nc, "-o");
   check_overwrites_result(files.nc);
 }

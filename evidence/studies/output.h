@@ -12,17 +12,17 @@ struct StudyFiles {
   std::string csv, nc, page, journal, lock;
 };
 
-// What the table begins with: its columns.
+// The first characters of the table: its columns.
 inline constexpr std::string_view STUDY_CSV_START = "experiment,pose,vessel,statistic,subject,value,low,high,paper,inside\n";
 // How the journal begins.
 inline constexpr std::string_view STUDY_JOURNAL_START = "wholehand study journal ";
-// What the page has in its head.
+// The identifying mark in the page's head.
 inline constexpr const char* STUDY_PAGE_MARK = "<meta name=\"wholehand-study\"";
 
 inline constexpr const char* STUDY_REMEDY = "make room, or name another folder with -o";
 
-// Makes the folder where it is missing. Throws Error: (usage) one of the files is there and is not of a study, or the folder cannot
-// be; (failure) no file can be made in it.
+// Makes the folder if it is missing. Throws Error: (usage) one of the files exists and is not a study's, or the path cannot be a folder; (failure) no
+// file can be made in it.
 void prepare_study_folder(const std::string& folder);
 
 // Removes the unnamed files that a killed run left. Call only while holding the lock.

@@ -19,7 +19,7 @@ constexpr const char* STUDY_RULES = R"css(
 void write_study_head(MarkupWriter& html, const StudyPage& page) {
   html.open("head");
   html.empty("meta", {{"charset", "utf-8"}});
-  // known by the first 64 KiB of the page
+  // identifies the page by its first 64 KiB
   html.empty("meta", {{"name", "wholehand-study"}, {"content", fmt::format("seed {}", page.seed)}});
   html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// study.html: one page that shows what a study found. Each experiment gives it sections.
+// study.html: one page with a study's results. Each experiment adds sections.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct StudyPage {
 // "How do people grasp small?"
 std::string study_title(const Scene& scene);
 
-// Self-contained HTML, well-formed XML too.
+// Self-contained HTML, also well-formed XML.
 std::string study_page(const StudyPage& page);
 
 }  // namespace wholehand

@@ -12,8 +12,8 @@
 
 namespace wholehand {
 
-// Rows of sensitivity (evidence/studies/sensitivity.h) of people 0, 1, .. of this seed. The answers are means over a person's own grasps of
-// the paper's vessels, or over the person's trials.
+// Rows of sensitivity (evidence/studies/sensitivity.h) for people 0, 1, .. of this seed. The outputs are means over a person's own grasps of the
+// paper's vessels, or over the person's trials.
 std::vector<StudyRow> session_sensitivity(std::span<const SessionSubject> people, const SessionVessels& vessels,
                                           std::uint64_t seed);
 std::vector<StudyRow> force_sensitivity(std::span<const ForcesOfPerson> people, std::uint64_t seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One statistic of a study, as the table, the dataset and the page have it.
+// One statistic of a study, as stored in the table, the dataset and the page.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace wholehand {
 
 struct StudyRow {
   std::string experiment, pose, vessel;
-  std::string statistic, subject;  // subject: what it applies to, as a point of the hand or a choice of forces; empty: all
+  std::string statistic, subject;  // subject: what it applies to, such as a point of the hand or a choice of forces; empty: all
   double value = std::numeric_limits<double>::quiet_NaN();  // of the population; NaN: there is none
   Interval interval;                                        // of 95 %, at the paper's sample size; NaN: there is none
   std::optional<double> paper;                              // absent: not known here
@@ -26,14 +26,14 @@ struct StudyRow {
   }
 };
 
-// Rows whose interval has the paper's value in it, of the rows that have both.
+// Rows whose interval contains the paper's value, among the rows that have both.
 struct InsideCount {
   std::size_t inside = 0, of = 0;
 };
 InsideCount count_inside(std::span<const StudyRow> rows);
 
-// Their share; NaN where no row has both.
+// Their share; NaN if no row has both.
 double inside_share(std::span<const StudyRow> rows);
-inline constexpr const char* INSIDE_SHARE = "inside_share";  // the statistic of a row that holds it
+inline constexpr const char* INSIDE_SHARE = "inside_share";  // the statistic of the row that contains it
 
 }  // namespace wholehand

@@ -113,7 +113,7 @@ class StudyRun {
   }
 
  private:
-  // Shares over all people of the sessions: they have no interval at the paper's sample size.
+  // Shares over all people of the sessions, which have no interval at the paper's sample size.
   static void add_share(std::vector<StudyRow>& rows, const char* statistic, std::uint64_t yes, std::uint64_t of) {
     StudyRow row;
     row.experiment = "sessions";
@@ -123,8 +123,7 @@ class StudyRun {
     rows.push_back(row);
   }
 
-  // As `wholehand live` would refuse it, before any work: vessels in each other, nothing to do for the scene's own hand, unstable
-  // gains.
+  // Refuses before any work what `wholehand live` would refuse: vessels in each other, nothing to do for the scene's own hand, unstable gains.
   static void check_live(const Scene& scene) {
     const LiveScene live(scene);
     plan_sim_jobs(scene);
@@ -165,7 +164,7 @@ class StudyRun {
           fmt::format("the journal has {} that cannot be read; these people are done again", counted(journal_->damaged(), "line")));
   }
 
-  // What other people or experiments have done is kept.
+  // Keeps what other people or experiments have done.
   void end_journal() {
     if (!journal_) return;
     const std::size_t others = journal_->done_beside(options_.people.forces, options_.people.sessions, options_.people.advice);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand study: the paper's experiments with a population of virtual people, and the files with what they show.
+// wholehand study: runs the paper's experiments with a population of virtual people, and writes the results.
 #pragma once
 
 #include "base/text/error.h"
@@ -8,8 +8,8 @@
 
 namespace wholehand {
 
-// The meshes of the scene have been read. Throws Error: (usage) the scene has no guidance points, or the folder cannot be written
-// over; (failure) a file cannot be written.
+// The meshes of the scene have been read. Throws Error: (usage) the scene has no guidance points, or the folder cannot be written over; (failure) a
+// file cannot be written.
 ExitCode run_study(const Scene& scene, const StudyOptions& options);
 
 }  // namespace wholehand

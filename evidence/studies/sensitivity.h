@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which input of a person moves each answer of a study most.
+// Which input of a person affects each output of a study most.
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@
 
 namespace wholehand {
 
-// What the statistic of such a row begins with; then comes the name of the answer.
+// The prefix of such a row's statistic; the name of the output follows.
 inline constexpr const char* FIRST_ORDER_OF = "first_order_of_";
 
-// A row for each input of each output: the output's in the statistic, the input's as the subject, no pose, and ALL_VESSELS. The
-// names are as many as `indices` has inputs (person_input_names) and outputs.
+// A row for each input of each output: the output in the statistic, the input as the subject, no pose, and ALL_VESSELS. There are as many names as
+// `indices` has inputs (person_input_names) and outputs.
 std::vector<StudyRow> sensitivity_rows(const std::string& experiment, std::span<const std::string> outputs,
                                        std::span<const std::string> inputs, const GivenDataIndices& indices);
 
@@ -25,15 +25,14 @@ struct InputIndex {
   Interval interval;
 };
 
-// The inputs that move an output most, at most MOST_INPUTS, the largest index first.
+// The inputs that affect an output most, at most MOST_INPUTS, the largest index first.
 struct OutputIndices {
   std::string experiment, output;
   std::vector<InputIndex> inputs;
 };
 constexpr std::size_t MOST_INPUTS = 3;
 
-// Reads the rows of sensitivity among `rows`, in their order. Leaves out inputs whose interval reaches down to 0; an output may have
-// none left.
+// Reads the rows of sensitivity among `rows`, in order. Leaves out inputs whose interval reaches down to 0; an output may have none left.
 std::vector<OutputIndices> strongest_inputs(std::span<const StudyRow> rows);
 
 }  // namespace wholehand

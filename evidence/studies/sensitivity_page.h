@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page says about which trait of people moves what.
+// The page's part on which trait of people affects what.
 #pragma once
 
 #include <vector>

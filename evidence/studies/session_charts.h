@@ -11,8 +11,8 @@
 
 namespace wholehand {
 
-// Captions and SVG: the increase of the normal force, the grip force before and after the tilt, and the response time, with the
-// means and deviations of the paper that the rows (session_rows) have.
+// Captions and SVG: the increase of the normal force, the grip force before and after the tilt, and the response time, with the paper's means and
+// deviations, where the rows (session_rows) have them.
 std::vector<std::string> session_charts(std::span<const SessionSubject> subjects, const SessionVessels& vessels,
                                         std::span<const StudyRow> rows);
 

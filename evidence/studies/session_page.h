@@ -10,7 +10,7 @@
 
 namespace wholehand {
 
-// `rows`: of session_rows. `are_simulated`: the people are virtual, and else recorded.
+// `rows`: of session_rows. `are_simulated`: the people are virtual, otherwise recorded.
 StudySection session_section(const SessionVessels& vessels, std::vector<StudyRow> rows, bool are_simulated);
 
 }  // namespace wholehand

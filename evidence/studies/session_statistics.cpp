@@ -136,7 +136,7 @@ std::array<double, BETWEEN.size()> between_vessels(const GraspsByVessel& grasps)
   return {anova ? anova->f : NO_VALUE, anova ? anova->p : NO_VALUE, anova ? anova->share : NO_VALUE, is_ordered};
 }
 
-// All values, in the order of the rows. The population and every sample of it go through here.
+// All values, in the order of the rows; used for the population and every sample of it.
 std::vector<double> values_of(const GraspsByVessel& grasps) {
   GraspList all;
   for (const GraspList& of_vessel : grasps) all.insert(all.end(), of_vessel.begin(), of_vessel.end());
@@ -201,7 +201,7 @@ StudyRow row_of(const std::string& vessel, const std::string& statistic, double 
   return row;
 }
 
-// F and p of the population are those of many more grasps than a sample has.
+// F and p of the population belong to many more grasps than a sample has.
 bool is_of_a_number_of_grasps(const StudyRow& row) { return row.statistic == "anova_f" || row.statistic == "anova_p"; }
 
 // Without values, in the order of values_of.

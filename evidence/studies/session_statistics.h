@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The paper's numbers about its mixing task (section V-B, Table 3, Figs 8 and 9), from the grasps of many people. People who are
-// simulated and people who were recorded go through the same code. docs/study.md has each statistic.
+// The paper's numbers about its mixing task (section V-B, Table 3, Figs 8 and 9), from the grasps of many people. Simulated and recorded people go
+// through the same code. docs/study.md has each statistic.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct SessionVessel {
 };
 using SessionVessels = std::vector<SessionVessel>;  // for the paper's first, second and third: 1 to 3
 
-// Throws Error (usage) where nothing is poured in the scene, or one of them has the name ALL_VESSELS.
+// Throws Error (usage) if nothing is poured in the scene, or one of them is named ALL_VESSELS.
 SessionVessels session_vessels(const Scene& scene);
 
 struct SessionSubject {
@@ -36,12 +36,12 @@ struct SessionSampling {
   std::uint64_t seed = 1;
   int resamples = 1000;  // for the intervals, at least 1
   int threads = 0;       // 0: all
-  // The simulated user tilts as fast as the paper's people did. So the paper's tilt time is nothing to compare with.
+  // The simulated user tilts as fast as the paper's people did, so the paper's tilt time is not compared.
   bool are_simulated = false;
 };
 
-// Rows of the experiment "sessions": those of all vessels together, those of each vessel, and inside_share. Grasps of other vessels
-// do not count. `subjects`: at least one. The same bits for any number of threads.
+// Rows of the experiment "sessions": for all vessels together, for each vessel, and inside_share. Grasps of other vessels do not count. `subjects`:
+// at least one. The same bits for any number of threads.
 std::vector<StudyRow> session_rows(std::span<const SessionSubject> subjects, const SessionVessels& vessels,
                                    const SessionSampling& sampling);
 

@@ -15,11 +15,11 @@ namespace wholehand {
 constexpr std::uint64_t SESSIONS_PER_PERSON = 2;
 
 struct PersonSessions {
-  std::vector<GraspReport> grasps;  // measured as those of a recording are; none where the person's hand holds no vessel
-  int broken = 0;                   // sessions that did not come to their end by themselves
+  std::vector<GraspReport> grasps;  // measured like a recording's; none if the person's hand holds no vessel
+  int broken = 0;                   // sessions that did not end by themselves
 };
 
-// Ends early where `stop` is set.
+// Ends early if `stop` is set.
 PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop);
 
 // As numbers, to the bit, for a journal.

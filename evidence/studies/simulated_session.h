@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One session of a virtual person, as `wholehand live` runs it, without a clock and without a recording.
+// One session of a virtual person, as in `wholehand live`, without a clock and without a recording.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace wholehand {
 
 constexpr double LONGEST_SESSION = 600;  // s of simulated time
 
-// What a session asks for.
+// The request for a session.
 struct SimulatedSession {
   const Scene& scene;  // with the person's own hand
   const Participant& person;
@@ -26,15 +26,14 @@ struct SimulatedSession {
   ShownGripSource* shown = nullptr;  // grips that the person is shown and takes; null: none
 };
 
-// Runs it: gripper, limits, loop and session are those of `wholehand live`. `take` is given each tick; false ends the session. Also
-// ends where `stop` is set. False: it did not come to its end by itself, but by a fault, as a jump of the hand, or since it took
-// too long. What `take` throws is thrown on.
+// Runs it with the gripper, limits, loop and session of `wholehand live`. `take` gets each tick; false ends the session, and so does `stop`. Returns
+// false if the session did not end by itself, but by a fault, such as a jump of the hand, or because it took too long. Rethrows what `take` throws.
 bool run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop);
 
-// The seed of the tremor in session `k` of a person. Without scatter everybody is one person, who trembles alike too.
+// The seed of the tremor in session `k` of a person. Without scatter everybody is one person, with the same tremor.
 std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t person, std::uint64_t k);
 
-// The jobs of the scene's person; none where the scene has nothing for that person to do.
+// The jobs of the scene's person; none if the scene has nothing for that person to do.
 std::vector<SimJob> jobs_of(const Scene& scene);
 
 }  // namespace wholehand

@@ -15,14 +15,14 @@ namespace wholehand {
 // Lines of cells; the first has the heads.
 using TextTable = std::vector<std::vector<std::string>>;
 
-// For the terminal: the first `names` columns begin on the left, the others end on the right.
+// For the terminal: the first `names` columns are left-aligned, the others right-aligned.
 std::string plain_table(const TextTable& lines, std::size_t names);
 
-// A cell as the page has it: a dash as wide as the page's others, and minus signs.
+// A cell as on the page: a dash of the page's width, and minus signs.
 std::string page_text(std::string text);
 
-// The line of inside_sentence, then a table for each vessel in the order of the rows. A column names the subjects where there are
-// any. The row inside_share is not shown, since the line says it.
+// The line of inside_sentence, then a table for each vessel in the order of the rows. A column names the subjects if there are any. The row
+// inside_share is not shown, because the line states it.
 void write_statistic_tables(MarkupWriter& html, std::span<const StudyRow> rows);
 
 // The same for the terminal, in one table.

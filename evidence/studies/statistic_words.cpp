@@ -66,7 +66,7 @@ std::string statistic_words(const std::string& statistic) {
 std::string statistic_value(const std::string& statistic, double value) {
   if (!std::isfinite(value)) return "-";
   if (is_share(statistic)) return fmt::format("{:.1f} %", 100 * value);
-  // a probability may be tiny, and an F of people who are alike has no limit
+  // a probability may be tiny, and the F of identical people has no limit
   if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e5)) return fmt::format("{:.1e}", value);
   return fmt::format("{:.3f}", value);
 }

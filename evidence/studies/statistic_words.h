@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics and their values as people read them.
+// Statistics and their values in words for people.
 #pragma once
 
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace wholehand {
 
-// "response_time_mean" is "response time, mean (s)". A statistic that is not known here is its name without underscores.
+// "response_time_mean" becomes "response time, mean (s)". An unknown statistic is its name without underscores.
 std::string statistic_words(const std::string& statistic);
 
-// A value of this statistic: "0.106", "8.2 %", "-" where there is none.
+// A value of this statistic: "0.106", "8.2 %", "-" if there is none.
 std::string statistic_value(const std::string& statistic, double value);
 
-// The row's interval: "0.08 to 0.13", "-" where there is none.
+// The row's interval: "0.08 to 0.13", "-" if there is none.
 std::string interval_words(const StudyRow& row);
 
-// "yes", "no", or "-" where there is nothing to compare.
+// "yes", "no", or "-" if there is nothing to compare.
 std::string inside_words(const StudyRow& row);
 
 // "31 of 40 statistics of the paper are inside their intervals.", or that there is none to compare.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a study says on the terminal.
+// The terminal output of a study.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace wholehand {
 
-// Experiment by experiment, whose rows must be neighbors: a line for each pose and vessel of contacts, and for other experiments a
-// line for each statistic.
+// Experiment by experiment, whose rows must be adjacent: a line for each pose and vessel of contacts, and for other experiments a line for each
+// statistic.
 std::string study_summary(std::span<const StudyRow> rows);
 
 }  // namespace wholehand

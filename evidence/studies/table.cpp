@@ -89,7 +89,7 @@ std::string study_csv(std::span<const StudyRow> rows) {
 }
 
 void write_study_dataset(const std::string& path, const Scene& scene, const StudyOptions& options, std::span<const StudyRow> rows) {
-  // HDF5 does not survive a disk that fills up under it
+  // HDF5 crashes if the disk fills up while it writes
   check_room(path, dataset_room(scene, rows), STUDY_REMEDY);
   try {
     define_study(path, scene, options, rows);

@@ -11,10 +11,10 @@
 
 namespace wholehand {
 
-// A row for each statistic; what is absent is empty. Numbers are kept to the bit.
+// A row for each statistic; absent values are empty. Numbers are exact, to the bit.
 std::string study_csv(std::span<const StudyRow> rows);
 
-// The same rows, with what was asked. Throws Error (failure); then no file is left.
+// The same rows, with the request. Throws Error (failure); then no file is left.
 void write_study_dataset(const std::string& path, const Scene& scene, const StudyOptions& options, std::span<const StudyRow> rows);
 
 }  // namespace wholehand

@@ -6,14 +6,14 @@
 
 namespace wholehand {
 
-// From which |r| on a correlation is one at all, strong, and very strong (Evans 1996). docs/study.md says more.
+// The |r| from which a correlation counts, is strong, and is very strong (Evans 1996). docs/study.md says more.
 constexpr double WEAK_R = 0.2, STRONG_R = 0.6, VERY_STRONG_R = 0.8;
 
-// "VSN", "SN", "N", "-", "P", "SP" or "VSP", of r in two digits, as it is shown; "" of NaN.
+// "VSN", "SN", "N", "-", "P", "SP" or "VSP", for r in two digits, as shown; "" for NaN.
 std::string word_of_correlation(double r);
 
-// Why a point of the hand has no correlation that touches in this share of the grasps (NaN: none holds): "never touches", "always
-// touches", "no grasp holds", and else "too few grasps": fewer than three, or all at one place.
+// Why a point of the hand that touches in this share of the grasps (NaN: none holds) has no correlation: "never touches", "always touches", "no grasp
+// holds", and otherwise "too few grasps": fewer than three, or all at one place.
 std::string why_no_correlation(double touch_share);
 
 }  // namespace wholehand

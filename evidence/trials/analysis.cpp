@@ -20,7 +20,7 @@ constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
 constexpr double WANTED_EFFORT_AUC = 0.90, WANTED_SCORE_AUC = 0.85, WANTED_HELD = 0.95, SURE_EFFORT = 0.5;
 constexpr TrialGroup JUDGED{};  // the stratified sample at fill_tilt
 
-// What became of a grip within a group.
+// A grip's result within a group.
 struct GripFate {
   std::size_t trials = 0;
   bool held = true, discarded = false;
@@ -183,7 +183,7 @@ std::vector<TrialGroup> groups_of(const TriedGrips& tried, const TrialOptions& o
   return groups;
 }
 
-// By how much, as a factor, and infinitely much.
+// The ratio that separates them, possibly infinite.
 double contradiction(const Disagreement& one) { return std::abs(std::log(one.effort)); }
 
 std::vector<Disagreement> find_disagreements(const TriedGrips& tried) {
@@ -216,7 +216,7 @@ std::vector<Disagreement> find_disagreements(const TriedGrips& tried) {
 // The best grips of a vessel that hold in every trial whose effort is at most SURE_EFFORT. A grip without such a trial does not count.
 struct SurelyHeld {
   Share held;
-  std::size_t discarded = 0, without = 0;  // grips that are not in it: a trial was discarded, or none is sure
+  std::size_t discarded = 0, without = 0;  // excluded grips: a trial was discarded, or none is sure
 };
 
 SurelyHeld surely_held(const TriedGrips& tried, std::size_t vessel) {
@@ -300,7 +300,7 @@ std::vector<TrialBar> bars_of(const Scene& scene, const TriedGrips& tried, const
   return bars;
 }
 
-// By whole grips, or by their placements. Grips that do not hold by their effort are left out: they score 0 with any weights.
+// By whole grips, or by their placements. Grips that do not hold by their effort are left out, because they score 0 with any weights.
 std::optional<WeightTrial> weights_by_trials(const Scene& scene, const TriedGrips& tried, std::uint64_t seed,
                                              std::size_t placements) {
   std::vector<TermedGrip> grips;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all trials together say: how many grips hold, what predicted it, and where prediction and engine disagree.
+// Summarizes all trials: how many grips hold, what predicted it, and where prediction and engine disagree.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace wholehand {
 
-// Trials that are reported together: a sample under a protocol, and with which material where it is six_forces.
+// Trials that are reported together: a sample under a protocol and, for six_forces, with a material.
 struct TrialGroup {
   TrialSample sample = TrialSample::stratified;
   TrialProtocol protocol = TrialProtocol::fill_tilt;
@@ -31,15 +31,15 @@ struct TrialCount {
   std::size_t slipped = 0;                  // of those held
 };
 
-// One vessel, of one fill and tilt where there is one.
+// One vessel, at one fill and tilt if given.
 struct SuccessRow {
   TrialGroup group;
   std::size_t vessel = 0;
   double fill = 0, tilt = 0;  // of fill_tilt
-  TrialCount trials;          // one lost at a smaller tilt is not held
+  TrialCount trials;          // a vessel lost at a smaller tilt is not held
 };
 
-// Whole grips of a vessel: success is to hold in every trial of the group. A grip with a discarded trial is not among them.
+// Whole grips of a vessel: success is to hold in every trial of the group. Grips with a discarded trial are left out.
 struct WholeGrips {
   TrialGroup group;
   std::size_t vessel = 0;
@@ -58,7 +58,7 @@ struct PushedGrips {
 // ---- what predicts success ----
 
 enum TrialPredictorName : std::size_t {
-  BY_WORST_EFFORT,        // of the ways to the states that are tried
+  BY_WORST_EFFORT,        // of the ways to the tried states
   BY_SCENE_WORST_EFFORT,  // of all states of the scene
   BY_TIPS_EFFORT,         // the same of the two tips
   BY_PUSH,
@@ -72,8 +72,8 @@ enum TrialPredictorName : std::size_t {
 extern const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES;
 constexpr bool is_by_trial(std::size_t predictor) { return predictor >= BY_LEG_EFFORT; }
 
-// A predictor's values for the grips of a group, or for its trials: larger is better. By grip, success is to hold in every trial,
-// and grips with a discarded trial are left out. By trial, only those that test their own state (is_conclusive) are there.
+// A predictor's values for the grips of a group, or for its trials: larger is better. By grip, success is to hold in every trial, and grips with a
+// discarded trial are left out. By trial, only those that test their own state (is_conclusive) are included.
 std::vector<Prediction> predictions_of(const TriedGrips& tried, const TrialGroup& group, std::size_t predictor);
 
 struct PredictorRow {
@@ -82,10 +82,10 @@ struct PredictorRow {
   Auc auc;
 };
 
-// Where trials and effort say the opposite: held though effort > 1, or lost though effort <= 1. As everywhere here, the effort of
-// the whole way to the state: a vessel may be lost before it gets there.
+// Where trials and effort contradict: held though effort > 1, or lost though effort <= 1. As everywhere here, the effort is that of the whole way to
+// the state, because a vessel may be lost before it gets there.
 struct Disagreement {
-  std::size_t grip = 0, place = 0;  // among those tried, and of the case
+  std::size_t grip = 0, place = 0;  // index among the tried grips, and of the case
   double effort = 0;
 };
 
@@ -93,32 +93,32 @@ struct GroupEfforts {
   TrialGroup group;
   std::vector<CalibrationBin> bins;
   Confusion confusion;
-  std::size_t earlier = 0, discarded = 0;  // trials that are not in them
+  std::size_t earlier = 0, discarded = 0;  // trials that are not among them
 };
 
 // ---- grips placed as a person takes them ----
 
-constexpr std::size_t FIRST_GRIPS = 5;  // of a list: what a person acts on
+constexpr std::size_t FIRST_GRIPS = 5;  // of a list: those that a person acts on
 
-// What became of the placements of a vessel's grips of a sample, or of the first FIRST_GRIPS of its lists.
+// The results of the placements of a vessel's grips of a sample, or of the first FIRST_GRIPS of its lists.
 struct ScatterRow {
   TrialSample sample = TrialSample::best;
   std::size_t vessel = 0;
   bool is_first = false;
   PlacementCount count;
-  Share held;  // of all placements: what cannot be tried, or was discarded, is not held
+  Share held;  // of all placements: impossible or discarded ones count as not held
 };
 
 enum ScatterPredictorName : std::size_t { BY_OWN_SCORE, BY_ROBUST_RANK, BY_ROBUST_SHARE, SCATTER_PREDICTORS };
 extern const std::array<const char*, SCATTER_PREDICTORS> SCATTER_PREDICTOR_NAMES;
 
-// What a number says of the placements of a sample's grips: larger is better, and success is to be held.
+// How well a number predicts the placements of a sample's grips: larger is better, and success is to be held.
 std::vector<Prediction> scatter_predictions(const TriedGrips& tried, TrialSample sample, std::size_t predictor);
 
 struct ScatterPredictors {
   TrialSample sample = TrialSample::stratified;
   std::array<Auc, SCATTER_PREDICTORS> aucs;
-  AucDifference robust_gain;  // AUC of the robust rank less that of the score
+  AucDifference robust_gain;  // AUC of the robust rank minus that of the score
 };
 
 struct ScatterAnalysis {
@@ -127,17 +127,17 @@ struct ScatterAnalysis {
   std::optional<WeightTrial> weights;  // by the placements of the stratified sample
 };
 
-// A bar with fewer is not judged, as its interval is too wide: where 10 of 10 hold, the true share may be 72 %.
+// A bar with fewer is not judged, because its interval is too wide: if 10 of 10 hold, the true share may be 72 %.
 constexpr std::size_t LEAST_JUDGED = 10;  // successes, and as many failures, of an AUC; grips of a share
 
-// A bar of the task.
+// A criterion that the results should meet.
 struct TrialBar {
   std::string what;
   double wanted = 0, found = 0;  // NaN: not measured
   Interval interval;
   std::string how;              // of what
   bool is_judged = false;       // of at least LEAST_JUDGED
-  const char* verdict() const;  // "met", "missed", "too few to judge", or "not measured" for want of grips
+  const char* verdict() const;  // "met", "missed", "too few to judge", or "not measured" for lack of grips
 };
 
 struct TrialAnalysis {
@@ -164,7 +164,7 @@ std::string scatter_row_text(const ScatterRow& row);                            
 std::string material_text(const TrialMaterial& material);
 // Whether the fitted weights are better than the scene's, a sentence.
 std::string weights_text(const WeightTrial& weights);
-// "12 overlap, 3 impossible"; nothing where all were held.
+// "12 overlap, 3 impossible"; nothing if all were held.
 std::string failures_text(const PlacementCount& count);
 // What the engine did in one trial, a sentence.
 std::string outcome_text(const TrialCase& one, const TrialOutcome& outcome);

@@ -240,7 +240,7 @@ class Dataset {
 
 }  // namespace
 
-// As `Dataset` defines them; a test holds it to the files themselves.
+// As `Dataset` defines them; a test compares it with the files themselves.
 std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried) {
   constexpr std::uint64_t OF_GRIP = 24 * sizeof(double) + 6 * sizeof(int), OF_TRIAL = 11 * sizeof(double) + 8 * sizeof(int);
   constexpr std::uint64_t VARIABLES = 47, HEAD = 1000;   // of each, with its attributes
@@ -254,7 +254,7 @@ std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried) {
   }
   for (const VesselData& vessel : scene.vessels) add_text(vessel.name);
   heap += heap / 8;  // its blocks are not quite full
-  // a long attribute moves as it grows, and HDF5 leaves its first place empty; the longest have a place of their own
+  // a long attribute moves as it grows, and HDF5 leaves its first place empty; the longest have their own place
   const std::uint64_t text = scene.text.size() * (scene.text.size() < LARGEST_IN_HEAD ? 2 : 1) + scene.name.size();
   return VARIABLES * HEAD + tried.grips.size() * OF_GRIP + trials * (OF_TRIAL + REFERENCE) + scene.vessels.size() * REFERENCE +
          heap + text;
@@ -262,7 +262,7 @@ std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried) {
 
 void write_trials_dataset(const std::string& path, const Scene& scene, const TrialOptions& options, const TriedGrips& tried,
                           const TrialOrigin& origin) {
-  // HDF5 does not survive a disk that fills up under it
+  // HDF5 crashes if the disk fills up while it writes
   check_room(path, trials_dataset_room(scene, tried), TRIALS_REMEDY);
   try {
     Dataset(path, tried).write(scene, options, origin);

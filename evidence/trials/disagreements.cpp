@@ -34,7 +34,7 @@ std::vector<TrialCase> cases_up_to(const std::vector<TrialCase>& cases, std::siz
 
 namespace {
 
-// Every failure here is trouble with this disagreement alone: the trials are done, and their tables stand without it.
+// A failure here only affects this disagreement: the trials are finished, and their tables stand without it.
 std::vector<TrialTrack> draw_and_run(const TrialPredictor& predictor, const TrialEngine& engine, const TrialGrip& grip,
                                      const std::vector<TrialCase>& cases, std::size_t place, ShownDisagreement& shown) {
   std::vector<TrialTrack> tracks;
@@ -68,7 +68,7 @@ std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileS
         shown.recording = TrialFiles::recording_name(all.size() + 1);
       }
     } catch (const Error& error) {
-      // a full disk: with room --resume writes what the page would lack
+      // a full disk: once there is room, --resume writes what the page would lack
       if (error.code == ExitCode::failure) throw;
       shown.error = set.with_own_names(error.what());
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worst disagreements between effort and engine, tried once more to be seen: a drawing and a recording of each.
+// Repeats the worst disagreements between effort and engine, with a drawing and a recording of each.
 #pragma once
 
 #include <atomic>
@@ -16,17 +16,17 @@ namespace wholehand {
 struct ShownDisagreement {
   Disagreement which;
   std::string drawing;    // SVG; empty: it cannot be drawn, and `trouble` says why
-  std::string forces;     // what its arrows show; may be empty
+  std::string forces;     // meaning of its arrows; may be empty
   std::string recording;  // name of the file in the folder; empty: there is none, and `trouble` says why
   std::string error;
 };
 
-// The cases that one run of the engine goes through up to one of a grip's: the smaller tilts of its fill, and itself.
+// The cases of the engine run that leads to one of a grip's cases: the smaller tilts of its fill, and itself.
 std::vector<TrialCase> cases_up_to(const std::vector<TrialCase>& cases, std::size_t place);
 
-// Writes the recordings into the set, which loses those of earlier trials. `scene` is the one that was read, whose text the
-// recordings get. `stop` ends it before the next one. Throws Error (failure): a recording could not be written. A drawing or an
-// engine that fails is the trouble of its disagreement.
+// Writes the recordings into the set, and removes those of earlier trials. `scene` is the original one, whose text the recordings get. `stop` ends it
+// before the next one. Throws Error (failure): a recording could not be written. If a drawing or an engine fails, that is the trouble of its
+// disagreement.
 std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileSet& set, const Scene& scene,
                                                   const TrialPredictor& predictor, const TrialEngine& engine,
                                                   const TriedGrips& tried, const TrialAnalysis& analysis,

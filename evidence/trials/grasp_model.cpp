@@ -31,7 +31,7 @@ glm::dmat3 frame_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {x, glm::cross(z, x), z};
 }
 
-// From the hand frame to that of the vessel: of the bases of index and little finger and the index's MCP, which no pose moves.
+// From the hand frame to the vessel's, by the bases of index and little finger and the index's MCP, which no pose moves.
 glm::dmat3 hand_turn(const PreparedHand& hand, const PosedHand& rigged) {
   const auto& index = hand.fingers[1];
   const Vec3 base = to_vec3(index.base), mcp = base + index.length[0] * to_vec3(index.forward);
@@ -43,7 +43,7 @@ glm::dmat3 hand_turn(const PreparedHand& hand, const PosedHand& rigged) {
 
 std::string triple_text(const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
-// The hinge at the inner end of a bone, and what turns it.
+// The hinge at the inner end of a bone, and its drive.
 struct Hinge {
   int finger = 0, bone = 0;
   Vec3 anchor{}, axis{};
@@ -80,8 +80,7 @@ class HandWriter {
     if (finger == 0 || bone > 0) write_hinge(finger, bone, model);
     const auto& radii = hand_.fingers[static_cast<std::size_t>(finger)].radius;
     const double inner = scale_ * radii[static_cast<std::size_t>(bone)], outer = scale_ * radii[static_cast<std::size_t>(bone) + 1];
-    // a capsule alone touches a straight wall in one point, which hops from one end of it to the other: each end has a ball of its
-    // own
+    // a capsule alone touches a straight wall in one point, which jumps from one end to the other, so each end has its own ball
     const double radius = std::max(THINNEST, (inner + outer) / 2);
     model.roughness = std::max(model.roughness, std::abs(inner - outer));
     if (bone == 0) write_ball("base" + name, Vec3(0), inner, model);
@@ -108,7 +107,7 @@ class HandWriter {
     return std::atan2(glm::dot(along, turn_ * to_vec3(plane.palmward)), glm::dot(along, turn_ * to_vec3(plane.forward)));
   }
 
-  // A hinge whose angle is 0 as posed and grows as the joint bends; the thumb's outer two bend back what its abduction has turned.
+  // A hinge whose angle is 0 as posed and grows as the joint bends; the thumb's outer two reverse its abduction.
   void write_hinge(int finger, int bone, GraspModel& model) {
     const auto& plane = hand_.fingers[static_cast<std::size_t>(finger)];
     const double sense = finger == 0 && bone > 0 ? -1 : 1;
@@ -136,7 +135,7 @@ class HandWriter {
   std::vector<Hinge> hinges_;
 };
 
-// The bone that a contact is on: that which ends at its joint. A base presses with no bone that turns.
+// The bone of a contact: the one that ends at its joint. A base has no bone that turns.
 bool is_moved_by(const Hinge& hinge, int joint) {
   const int finger = finger_of(joint), bone = joint - finger_start(finger) - 1;
   return hinge.finger == finger && bone >= hinge.bone;
@@ -155,11 +154,10 @@ std::vector<double> GraspModel::drives(std::span<const ContactForce> forces) con
   return result;
 }
 
-// A bone that presses with f at q on the vessel, and with a torsion tau about the normal n, turns its hinge at o with the axis a by
-// a.((q - o) x f) + a.n tau = ((a x (q - o)).f + a.n tau: what its joint must hold. The strength of a digit is of its normal forces
-// N; with friction |(f, tau / gamma)| reaches sqrt(1 + mu^2) N. A joint's torque reaches what such a force of the full strength
-// takes at most, where its digit touches with the longest arm; of a digit that touches nothing, at its tip. So no force of kernel
-// 10 within the strength is more than the joints can do.
+// A bone that presses with f at q on the vessel, with a torsion tau about the normal n, loads its hinge at o with the axis a by a.((q - o) x f) + a.n
+// tau = (a x (q - o)).f + a.n tau, which its joint must hold. A digit's strength limits its normal forces N; with friction |(f, tau / gamma)| reaches
+// sqrt(1 + mu^2) N. A joint's largest torque is that of such a force of the full strength, at the digit's contact with the longest arm, or at the tip
+// of a digit that touches nothing. So the joints can produce every force of kernel 10 within the strength.
 GraspModel articulated_hand(const PreparedHand& hand, const HandData& data, const PosedHand& rigged, const PosedHand& posed,
                             double scale, const GraspContacts& contacts) {
   GraspModel model;

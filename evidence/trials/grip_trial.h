@@ -13,28 +13,28 @@
 namespace wholehand {
 
 constexpr double CLOSE_TIME = 0.25,
-                 STILL_TIME = 0.15;        // s: to press harder and harder, and to come to rest, before the vessel is let go
-constexpr double SETTLE_TIME = 0.5;        // s after that; a loss in it is a loss at the release
-constexpr double STATE_STEP = radians(5);  // between the tilts at which load and forces are computed; between them they go evenly
+                 STILL_TIME = 0.15;        // s: to press harder and harder, and to come to rest, before the vessel is released
+constexpr double SETTLE_TIME = 0.5;        // s after that; a loss in this time is a loss at the release
+constexpr double STATE_STEP = radians(5);  // between the tilts at which load and forces are computed; others are interpolated
 
 // What touches the hand of a vessel, for a right hand: the same for every grip. Throws Error as convex_pieces.
 BodyForm trial_form(const Scene& scene, std::size_t vessel);
 
-// Not thread-safe; one a thread. What it is made of must outlive it, but for the form.
+// Not thread-safe; use one per thread. All arguments except the form must outlive it.
 class GripTrial {
  public:
-  // Where the engine does not take the model, every outcome is `diverged`, with its words.
+  // If the engine does not accept the model, every outcome is `diverged`, with its words.
   GripTrial(const MujocoLibrary& library, const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings,
             std::size_t vessel, const BodyForm& form, const GripInput& grip, int most_contacts = MOST_CONTACTS);
 
-  // A fill through tilts in ascending order; an outcome for each. `track`, if asked for, gets all frames until the vessel is lost
-  // or the last hold ends, and `ends` how many of them belong to each tilt.
+  // Takes a fill through tilts in ascending order, with an outcome for each. `track`, if requested, gets all frames until the vessel is lost or the
+  // last hold ends, and `ends` how many of them belong to each tilt.
   std::vector<TrialOutcome> tilt(double fill, const std::vector<double>& tilts, TrialTrack* track, std::vector<std::size_t>* ends);
-  // A fill pushed along a direction of the vessel frame (as of TrialCase).
+  // A fill pushed along a direction of the vessel frame (see TrialCase).
   TrialOutcome push(double fill, int direction, const TrialMaterial& material, TrialTrack* track);
 
  private:
-  // What acts on the vessel, and what the hand does about it.
+  // The load on the vessel, and the hand's response.
   struct State {
     RigidLoad load;
     core_f64::Vec3 force{};
@@ -45,10 +45,10 @@ class GripTrial {
   void act(const State& state);
   void act_between(const State& a, const State& b, double share, double tilt, bool with_load);
   core_f64::Vec3 up_at(double tilt) const;
-  HeldBody& body();  // throws EngineError where there is none
-  // Closes the hand on the pinned vessel and lets go. What is wrong with the start, if anything.
+  HeldBody& body();  // throws EngineError if there is none
+  // Closes the hand on the pinned vessel and releases it. Returns what is wrong with the start, if anything.
   TrialReason close(const State& state);
-  // Goes on for a time; false once the vessel is lost, which `outcome` then has.
+  // Continues for a time; false once the vessel is lost, which `outcome` then records.
   bool watch(double duration, double tilt, TrialOutcome& outcome, TrialTrack* track);
   bool turn(double fill, State& state, double from, double to, TrialOutcome& outcome, TrialTrack* track);
   bool look(double tilt, TrialOutcome& outcome);
@@ -66,7 +66,7 @@ class GripTrial {
   std::optional<HeldBody> body_;
   std::string last_error_;  // why there is none
   bool is_articulated_ = true;
-  core_f64::Vec3 watched_{};  // a place of the vessel: its center of mass at the release
+  core_f64::Vec3 watched_{};  // a point of the vessel: its center of mass at the release
   long steps_ = 0;
 };
 

@@ -70,7 +70,7 @@ std::string model_text(const HeldSetup& setup) {
       for (std::size_t body = 0; body < setup.form.names.size(); ++body) pairs += pair_text(setup, hand, body);
   }
   for (const auto& [hand, body] : setup.pairs) pairs += pair_text(setup, hand, body);
-  // the body's mass is set after; an inertial frame beside its own keeps the engine from shortcuts that would not hold then
+  // the body's mass is set later; a separate inertial frame keeps the engine from shortcuts that would then be wrong
   return fmt::format(
       "<mujoco><compiler angle=\"radian\"/><size njmax=\"{}\" nconmax=\"{}\" nstack=\"500000\"/>\n"
       "<option timestep=\"{}\" gravity=\"0 0 0\" cone=\"elliptic\" impratio=\"10\" iterations=\"100\" tolerance=\"1e-12\" "
@@ -154,7 +154,7 @@ void HeldBody::release() {
   time_ = 0;
 }
 
-// Balls along the axis of a geom, each half as long as apart from the next, hold it: none of them is near, nor is the geom.
+// Balls along a geom's axis, each wider than the geom by half of their spacing, enclose it: if none of them is near, the geom is not.
 bool HeldBody::is_near(int geom, const std::array<Triple, 2>* box) {
   constexpr double APART = 8e-3;  // m
   const mjModel& m = simulation_.model();
@@ -177,7 +177,7 @@ bool HeldBody::is_near(int geom, const std::array<Triple, 2>* box) {
   return false;
 }
 
-// The most by which a point of the hand and one of the body came nearer to each other in the last step, m.
+// The largest approach of a point of the hand and one of the body in the last step, m.
 double HeldBody::largest_step() {
   const mjtNum* v = simulation_.data().qvel;
   std::array<double, core_f64::DIGITS> hand{};
@@ -187,9 +187,8 @@ double HeldBody::largest_step() {
   return TIME_STEP * (body + *std::max_element(hand.begin(), hand.end()));
 }
 
-// The engine first asks whether the balls about two geoms meet, with a margin: with one that takes away both radii they never do.
-// Places are those of the beginning of the last step, so that what came nearer in it counts. Where that is too much, and before the
-// first step, no pair is left out.
+// The engine first tests whether the balls about two geoms meet, with a margin; a margin that cancels both radii excludes the pair. Positions are
+// those at the start of the last step, so the approach during it counts too. If that is too large, and before the first step, no pair is excluded.
 void HeldBody::collide_near_pairs() {
   mjModel& m = simulation_.model();
   steps_ = 0;

@@ -82,7 +82,7 @@ std::vector<Placement> placements_of(const Json& content) {
   return placements;
 }
 
-// A line whose checksum is right was written here: what does not fit it is of a number of grips or cases that is not asked for.
+// A line with a correct checksum was written here; if it does not fit, it has another number of grips or cases than requested.
 std::optional<std::pair<std::size_t, GripFinding>> finding_of(const Json& content, const std::vector<std::size_t>& counts) {
   try {
     const auto grip = content.at("grip").get<std::size_t>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The done part of trials: a file that grows by a line with each grip, so that interrupted trials resume where they ended.
+// The finished part of trials: a file that gains a line with each grip, so that interrupted trials can resume.
 #pragma once
 
 #include <cstddef>
@@ -20,20 +20,19 @@ using TrialIdentity = JournalIdentity;
 // One checksum of it.
 std::string identity_text(const TrialIdentity& identity);
 
-// Numbers are kept to the bit.
+// Stores numbers exactly, to the bit.
 class TrialJournal {
  public:
   using Found = std::map<std::size_t, GripFinding>;  // by the number of the grip among those to be tried
 
-  // Begins anew. Throws Error (failure) where the file cannot be written.
+  // Starts anew. Throws Error (failure) if the file cannot be written.
   TrialJournal(const std::string& path, const TrialIdentity& identity);
-  // Goes on: `found` gets what is done, and lines that are not as they were written are left out and counted in `damaged`.
-  // `counts`: cases of each grip. Throws Error: (usage) the journal is of other trials, and in what; (failure) it cannot be read,
-  // or its head is damaged.
+  // Continues: `found` gets the finished grips; altered lines are left out and counted in `damaged`. `counts`: cases of each grip. Throws Error:
+  // (usage) the journal is of other trials (the message says what differs); (failure) it cannot be read, or its head is damaged.
   TrialJournal(const std::string& path, const TrialIdentity& identity, const std::vector<std::size_t>& counts, Found& found,
                std::size_t& damaged);
 
-  // Adds a grip; details of its outcomes are UTF-8. Thread-safe. Throws Error (failure) where it cannot be written.
+  // Adds a grip; details of its outcomes are UTF-8. Thread-safe. Throws Error (failure) if it cannot be written.
   void add(std::size_t grip, const GripFinding& found);
 
  private:

@@ -15,20 +15,20 @@ namespace wholehand {
 
 constexpr std::size_t SCORE_TERM_COUNT = 6;
 
-// Each weight is at least this share of their sum. A scene without tilts has no terms of force and hold: there a fit that gives all
-// to these two would leave nothing to rank its grips by.
+// Each weight is at least this share of their sum. A scene without tilts has no terms of force and hold; a fit that gave everything to these two
+// would leave nothing to rank its grips by.
 constexpr double LEAST_WEIGHT = 0.02;
 
-// A grip with the terms of its score, each in [0, 1], and what became of it.
+// A grip with the terms of its score, each in [0, 1], and its outcome.
 struct TermedGrip {
   std::array<double, SCORE_TERM_COUNT> terms{};
   bool success = false;    // it was tried, and held
-  bool discarded = false;  // it could not be tried: then it is no success
+  bool discarded = false;  // it could not be tried, which is no success
 };
 
-// log(p / (1 - p)) = intercept + sum of coefficient x term, at the largest likelihood for which each coefficient is at least
-// LEAST_WEIGHT of their sum (so that none is negative: no term of a score may lower it). A term that does not vary gets the least.
-// `has_ridge`: as of a LogisticModel (base/statistics/logistic.h), of the amounts by which the coefficients are above the least.
+// log(p / (1 - p)) = intercept + sum of coefficient x term, at the largest likelihood for which each coefficient is at least LEAST_WEIGHT of their
+// sum (so none is negative: no term of a score may lower it). A term that does not vary gets the least. `has_ridge`: as in a LogisticModel
+// (base/statistics/logistic.h), for the amounts by which the coefficients exceed the least.
 struct LogisticFit {
   std::array<double, SCORE_TERM_COUNT> coefficients{};
   std::array<bool, SCORE_TERM_COUNT> is_least{};  // at the least share
@@ -38,10 +38,10 @@ struct LogisticFit {
 };
 LogisticFit fit_logistic(std::span<const TermedGrip> grips);
 
-// The coefficients as weights of a score: the sum is 1. All 0 where no term separates successes from failures.
+// The coefficients as weights of a score, with the sum 1. All 0 if no term separates successes from failures.
 std::array<double, SCORE_TERM_COUNT> weights_of(const LogisticFit& fit);
 
-// AUCs of the fitted and of the given weights, and the first less the second.
+// AUCs of the fitted and of the given weights, and the first minus the second.
 struct WeightContest {
   Auc fitted, given;
   AucDifference difference;
@@ -51,13 +51,13 @@ struct WeightContest {
 struct WeightTrial {
   LogisticFit fit;
   std::array<double, SCORE_TERM_COUNT> weights{};
-  std::size_t fitted_on = 0, judged_on = 0;  // grips, with the discarded ones
-  WeightContest all;                         // discarded grips are failures: a list of the best is to have none
+  std::size_t fitted_on = 0, judged_on = 0;  // grips, including the discarded ones
+  WeightContest all;                         // discarded grips count as failures: a list of the best should have none
   WeightContest tried;                       // without the discarded ones
   bool is_better() const { return all.difference.interval.low > 0; }
 };
-// The halves are drawn by the seed, among successes, failures and discarded grips alike. `each` outcomes of a grip stand one after the other:
-// they come into the same half, as its first one says, and into the same resamples.
+// The seed draws the halves among successes, failures and discarded grips alike. `each` consecutive outcomes of a grip come into the same half,
+// decided by the first one, and into the same resamples.
 WeightTrial try_weights(std::span<const TermedGrip> grips, const std::array<double, SCORE_TERM_COUNT>& given, std::uint64_t seed,
                         std::size_t each = 1);
 

@@ -31,8 +31,7 @@ std::string engine_words(std::string text) {
   return text;
 }
 
-// MuJoCo's error handler must not return. Its library has tables for unwinding, so that an exception leaves it; the state that it
-// then leaves behind is thrown away.
+// MuJoCo's error handler must not return. Its library has unwind tables, so an exception can leave it; the state left behind is discarded.
 void on_engine_error(const char* words) { throw EngineError(engine_words(words)); }
 void on_engine_warning(const char* words) { last_warning = engine_words(words); }
 
@@ -152,7 +151,7 @@ void Simulation::check_warnings(const mjData& data) {
 
 void Simulation::check() const {
   check_warnings(*data_);
-  // it checks for itself whether what it integrates is a number, but not what follows from the last step
+  // it checks whether the integrated numbers are finite, but not what follows from the last step
   for (int i = 0; i < model_->nq; ++i)
     if (!std::isfinite(data_->qpos[i])) throw EngineError(fmt::format("position {} is no number", i));
   for (int i = 0; i < model_->nv; ++i)

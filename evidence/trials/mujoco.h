@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo, loaded at run time where it is installed: the rest of the program needs nothing of it.
+// Loads MuJoCo at run time if it is installed; the rest of the program needs nothing of it.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -12,13 +12,13 @@ namespace wholehand {
 
 extern const std::string MUJOCO_LIBRARY_NAME;  // "libmujoco.so.2.2.2": the release whose headers this is compiled with
 
-// What the engine itself finds wrong: an error that would have ended the process, a warning, a number that is none. One line.
+// What the engine itself reports as wrong: an error that would have ended the process, a warning, a number that is not finite. One line.
 class EngineError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// The calls that are used, by MuJoCo's names without `mj_` or `mju_`.
+// The calls in use, by MuJoCo's names without `mj_` or `mju_`.
 struct MujocoLibrary {
   std::string path;  // as it was loaded
   std::string name;  // "MuJoCo 2.2.2"
@@ -42,10 +42,9 @@ struct MujocoLibrary {
   decltype(&::mju_eig3) eig3;
 };
 
-// Loads `path` or, where it is empty, what the environment variable WHOLEHAND_MUJOCO_LIBRARY names, or else MUJOCO_LIBRARY_NAME.
-// Once loaded it stays, with handlers for its errors and warnings: without them an error ends the process and a warning is written
-// to a file in the working folder. Thread-safe. Throws Error (failure): the loader's words and the package that brings the library;
-// another version; the symbol that it lacks.
+// Loads `path` or, if it is empty, what the environment variable WHOLEHAND_MUJOCO_LIBRARY names, or else MUJOCO_LIBRARY_NAME. It stays loaded, with
+// handlers for its errors and warnings: without them an error would end the process and a warning would be written to a file in the working folder.
+// Thread-safe. Throws Error (failure): the loader's words and the package with the library; another version; the symbol that it lacks.
 const MujocoLibrary& load_mujoco(const std::string& path = "");
 
 // A model with one state of it. Not thread-safe; one a thread.

@@ -28,7 +28,7 @@ class MujocoEngine final : public TrialEngine {
     check_hand();
     std::vector<TrialOutcome> outcomes(cases.size());
     if (tracks) tracks->assign(cases.size(), {});
-    // a model of its own for every grip and every call: the same bits whatever other threads do
+    // a model of its own for every grip and every call, so that other threads do not change the bits
     GripTrial trial(library_, scene_, evaluator_, settings_, vessel, form(vessel), grip);
     tilt(trial, cases, outcomes, tracks);
     push(trial, cases, outcomes, tracks);
@@ -43,7 +43,7 @@ class MujocoEngine final : public TrialEngine {
         "\"articulated\" or \"rigged\"");
   }
 
-  // Made by the first who asks: whether a large mesh is convex takes seconds.
+  // Made on first use, because testing whether a large mesh is convex takes seconds.
   const BodyForm& form(std::size_t vessel) const {
     const std::lock_guard guard(making_forms_);
     const auto known = forms_.find(vessel);

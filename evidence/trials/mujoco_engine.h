@@ -9,8 +9,8 @@
 
 namespace wholehand {
 
-// `scene` and `evaluator`, which was made for it, must outlive the engine. Throws Error (failure) where MuJoCo cannot be loaded.
-// Whether a vessel has a model is asked with `check`, as a run may be of one vessel alone.
+// `scene` and `evaluator`, which was made for it, must outlive the engine. Throws Error (failure) if MuJoCo cannot be loaded. Use `check` to ask
+// whether a vessel has a model, because a run may be about one vessel alone.
 std::unique_ptr<TrialEngine> make_mujoco_engine(const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings);
 
 }  // namespace wholehand

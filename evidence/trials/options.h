@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of trials beside their scene, and who answers.
+// Options of trials besides their scene, and who answers.
 #pragma once
 
 #include <cstddef>
@@ -33,10 +33,10 @@ struct TrialOptions {
   std::size_t most_looked = std::size_t{1} << 18;  // grips of a vessel whose scores are considered for the sample
 };
 
-// Fewer grips and states, for less than a minute. After the protocol, on which it depends.
+// Fewer grips and states, to take less than a minute. Apply after the protocol, on which it depends.
 void make_quick(TrialOptions& options);
 
-// The engine for a scene. Throws Error: (failure) it is not there; (usage) a vessel has no model.
+// The engine for a scene. Throws Error: (failure) it is missing; (usage) a vessel has no model.
 using OpenTrialEngine = std::function<std::unique_ptr<TrialEngine>(const Scene&, const Evaluator&, const TrialSettings&)>;
 
 }  // namespace wholehand

@@ -36,7 +36,7 @@ void prepare_trials_folder(const std::string& folder) {
   check_folder_files(folder, "trials", std::span(&TABLE, 1), {});
   check_overwrites_kind(files.journal, JOURNAL_START, "journal of wholehand trials", OPTION);
   check_overwrites_marked(files.page, TRIALS_PAGE_MARK, "page of wholehand trials", OPTION);
-  // a NetCDF-4 file has no mark of ours near its begin: beside our table or our journal it is ours
+  // a NetCDF-4 file has no mark of ours near its beginning: beside our table or our journal it counts as ours
   if (!begins_with(files.csv, TRIALS_CSV_START) && !begins_with(files.journal, JOURNAL_START))
     check_overwrites_nothing(files.nc, OPTION);
   check_overwrites_result(files.nc);

@@ -12,7 +12,7 @@ constexpr std::size_t MOST_DISAGREEMENTS = 10;
 struct TrialFiles {
   explicit TrialFiles(const std::string& folder);
   std::string csv, nc, page, journal, lock;
-  // From 1 on. The name within the folder, and with it.
+  // From 1 on. The name within the folder, and the path with it.
   static std::string recording_name(std::size_t number);
   std::string recording(std::size_t number) const { return folder_ + recording_name(number); }
 
@@ -20,19 +20,19 @@ struct TrialFiles {
   std::string folder_;  // with its slash
 };
 
-// By what a recording of a trial is known: the name of its device begins so.
+// The prefix of the device's name, which identifies a recording of a trial.
 inline constexpr const char* TRIAL_DEVICE = "wholehand trials: ";
-// What the page has in its head, before the identity of its trials.
+// The identifying mark in the page's head, before the identity of its trials.
 inline constexpr const char* TRIALS_PAGE_MARK = "<meta name=\"wholehand-trials\" content=\"";
 
-// What helps where a file cannot be written: the journal is there.
+// The remedy if a file cannot be written: the journal exists.
 inline constexpr const char* TRIALS_REMEDY = "make room, then go on with --resume";
 
-// Makes the folder where it is missing. Throws Error: (usage) one of the files is there and is not of trials, or the folder cannot
-// be; (failure) no file can be made in it.
+// Makes the folder if it is missing. Throws Error: (usage) one of the files exists and is not a trials file, or the path cannot be a folder;
+// (failure) no file can be made in it.
 void prepare_trials_folder(const std::string& folder);
 
-// Removes what a run that was killed left of files that it had not given their names. Only who holds the lock may ask.
+// Removes unrenamed files that a killed run left. Call only while holding the lock.
 void remove_unfinished(const TrialFiles& files);
 
 // Whether the folder has all files of trials of this identity.

@@ -42,7 +42,7 @@ std::string title_of_trials(const Scene& scene) {
 void write_trials_head(MarkupWriter& html, const TrialPageSource& source) {
   html.open("head");
   html.empty("meta", {{"charset", "utf-8"}});
-  // known by the first 64 KiB of the page: name and identity come before all else
+  // identifies the page by its first 64 KiB, so name and identity come before everything else
   html.empty("meta", {{"name", "wholehand-trials"}, {"content", source.identity}});
   html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});

@@ -8,7 +8,7 @@
 
 namespace wholehand {
 
-// One self-contained file of HTML (well-formed XML too): no script, nothing that is fetched. It links to the recordings beside it.
+// One self-contained HTML file (also well-formed XML): no script, and nothing is fetched. It links to the recordings beside it.
 std::string trials_page(const TrialPageSource& source);
 
 }  // namespace wholehand

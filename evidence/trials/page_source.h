@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page of trials is made of.
+// The data that the page of trials shows.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the core says of a grip and of each case that is tried, before any engine has been asked.
+// The core's predictions for a grip and each of its tried cases, made before any engine runs.
 #pragma once
 
 #include <array>
@@ -16,25 +16,25 @@
 
 namespace wholehand {
 
-// Efforts are infinite where no force of the hand holds the load. Those of the way are the largest of the states that a run goes
-// through on its way to the case, since the one before in its fill: from the one's tilt to the other's, and of a fill's first case
-// from upright, where it is released. A push has no way.
+// Efforts are infinite if no force of the hand holds the load. Those of the way are the largest over the states that a run passes on its way to the
+// case, from the previous case of its fill: from that tilt to this one, and for a fill's first case from upright, where the vessel is released. A
+// push has no way.
 struct CasePrediction {
   double effort = 0;      // of the whole hand
   double tips = 0;        // of thumb and index tip alone
-  double leg_effort = 0;  // the same two of the way
+  double leg_effort = 0;  // the same two, over the way
   double leg_tips = 0;
 };
 
 struct GripPrediction {
-  std::vector<CasePrediction> cases;             // in the order of those asked for
+  std::vector<CasePrediction> cases;             // in the order of the cases
   double worst_effort = 0;                       // of the ways to the fill_tilt cases; NaN without any
   double tips_worst_effort = 0;                  // likewise
   double scene_worst_effort = 0;                 // over all states of the scene, as a sweep has it
   double push = 0;                               // N
   double friction_needed = 0;                    // over all states of the scene
   double epsilon = 0;                            // the middle of its bracket
-  double score = 0;                              // 0 where the worst effort of the scene is above 1
+  double score = 0;                              // 0 if the worst effort of the scene is above 1
   std::array<double, SCORE_TERM_COUNT> terms{};  // fingers, contacts, depth, posture, force, hold
 };
 
@@ -42,7 +42,7 @@ struct GripPrediction {
 inline constexpr double LEG_STEP = radians(5);
 std::vector<double> leg_tilts(double from, double to);
 
-constexpr std::size_t TRIAL_FACETS = 2'000;  // of the hull for epsilon: 15 ms a grip, and a bracket about 12 % wide
+constexpr std::size_t TRIAL_FACETS = 2'000;  // of the hull for epsilon: 15 ms per grip, and a bracket about 12 % wide
 
 // By the core in double precision, with the mass and the friction of the trials in place of the scene's. Thread-safe.
 class TrialPredictor {
@@ -53,7 +53,7 @@ class TrialPredictor {
   // `grip` is feasible.
   GripPrediction predict(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases) const;
 
-  // The scene with the friction of the trials, and the core made for it.
+  // The scene with the friction of the trials, and its core.
   const Scene& scene() const { return scene_; }
   std::shared_ptr<const Evaluator> core() const { return core_; }
 

@@ -52,7 +52,7 @@ std::string settings_text(const TrialSettings& settings) {
   return text;
 }
 
-// Writes each grip in full, not its number alone: a mesh or a scene of another version may give the number another meaning.
+// Writes each grip in full, not just its number, because with another mesh or version of a scene the number may mean another grip.
 std::string grips_text(const std::vector<TrialGrip>& grips) {
   std::string text;
   for (const TrialGrip& grip : grips)
@@ -96,7 +96,7 @@ void check_trial_scene(const Scene& scene, std::size_t scatter) {
         fmt::format("{}: --scatter needs [robust], whose deviations it takes; add it to the scene, or leave --scatter out", name));
 }
 
-// What comes from outside of the program, in one line of plain characters: a table and a page will show it.
+// Text from outside the program, in one line of plain characters, for a table and a page.
 std::string plain_detail(std::string detail) {
   for (char& c : detail)
     if (c < ' ' || c > '~') c = ' ';
@@ -127,7 +127,7 @@ class Trials {
         print(fmt::format("{}: these trials are complete; there is nothing to resume\n", one_line(options_.folder)));
         return ExitCode::done;
       }
-      // who asks to go on does not ask to replace what is whole
+      // a request to resume is no request to replace a complete result
       if (begins_with(files.csv, TRIALS_CSV_START))
         throw usage_error(
             fmt::format("{}: other trials are complete there, or of another build; leave --resume out to replace them, or "
@@ -164,7 +164,7 @@ class Trials {
 
   bool is_asked(std::size_t vessel) const { return !options_.vessel || *options_.vessel == vessel; }
 
-  // Throws Error (usage) of the first vessel without a model, with one that can be tried in its place.
+  // Throws Error (usage) for the first vessel without a model, and names one that can be tried instead.
   void check_models() const {
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
       if (!is_asked(v)) continue;
@@ -190,7 +190,7 @@ class Trials {
     return std::nullopt;
   }
 
-  // By the scene's own friction, so that the same grips are tried with any.
+  // By the scene's own friction, so that the same grips are tried with any friction.
   void choose_grips(InterruptGuard& interrupt) {
     const Plan plan(scene_, result_ && keeps_vectors(result_->variables()));
     if (result_) result_->use(scene_, plan);
@@ -227,7 +227,7 @@ class Trials {
         options_.quick ? "; --quick: fewer grips and states" : ""));
   }
 
-  // The grips that are not in `found`. Returns how many are there in the end.
+  // Tries the grips that are not in `found`. Returns how many are finished in the end.
   std::size_t try_all(TrialJournal& journal, TrialJournal::Found& found, InterruptGuard& interrupt) {
     std::vector<std::size_t> open;
     for (std::size_t g = 0; g < tried_.grips.size(); ++g)
@@ -279,14 +279,14 @@ class Trials {
     return ExitCode::interrupted;
   }
 
-  // Files get their names once all are whole. The journal goes after that, so --resume mends what a kill leaves among the renames.
-  // False: stopped before the first of them.
+  // Renames the files once all are complete. The journal is removed after that, so --resume repairs a kill during the renames. False: stopped before
+  // the first of them.
   bool write_files(const TrialFiles& files, const TrialIdentity& identity, const std::atomic<bool>& stop) {
     const TrialAnalysis analysis = analyse_trials(scene_, tried_, options_);
     std::vector<ShownDisagreement> shown;
     FileSet set;
     try {
-      // the table gets its name first: beside it a folder's trials.nc is known as ours
+      // renames the table first: beside it a folder's trials.nc is recognized as ours
       set.write(files.csv, trials_csv(scene_, options_.settings, tried_), TRIALS_REMEDY);
       const TrialOrigin origin{engine_->name(), identity_text(identity)};
       write_trials_dataset(set.temporary_path(files.nc), scene_, options_, tried_, origin);

@@ -10,9 +10,9 @@
 
 namespace wholehand {
 
-// Tries grips of the scene, whose meshes are read, and writes all files into the options' folder. `result`: whose lists and scores
-// choose the grips, opened and not yet in use; null: the core's. Returns `done`, or `interrupted` after SIGINT or SIGTERM with a
-// journal left for --resume. Throws Error.
+// Tries grips of the scene, whose meshes are read, and writes all files into the options' folder. `result`: chooses the grips by its lists and
+// scores; opened and not yet in use; null: the core's. Returns `done`, or `interrupted` after SIGINT or SIGTERM with a journal left for --resume.
+// Throws Error.
 ExitCode run_trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, SweepResult* result = nullptr);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grips as a person takes them: placed with the deviations of [robust], and tried there.
+// Tries grips as a person takes them, placed with the deviations of [robust].
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,11 @@ namespace wholehand {
 
 class GripScatter {
  public:
-  // `scene` has [robust], and the friction of the trials. Opens an engine for each friction of the deviations. Throws Error as
-  // `open` does.
+  // `scene` has [robust], and the friction of the trials. Opens an engine for each friction of the deviations. Throws Error as `open` does.
   GripScatter(const Scene& scene, const TrialSettings& settings, const OpenTrialEngine& open);
 
-  // The grip at `count` deviations, each tried in all cases, which are of fill_tilt. Each grip has deviations of its own, which its vessel,
-  // its number and the seed decide: not those by which a sweep ranks it.
+  // The grip at `count` deviations, each tried in all cases, which are fill_tilt. Each grip has its own deviations, drawn by its vessel, its number
+  // and the seed; they differ from those by which a sweep ranks it.
   std::vector<Placement> place(const TrialGrip& grip, const std::vector<TrialCase>& cases, std::size_t count,
                                std::uint64_t seed) const;
 

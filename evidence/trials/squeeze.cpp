@@ -16,7 +16,7 @@ using core_f64::ContactPoint;
 using core_f64::EffortSolver;
 using core_f64::HandStrength;
 
-// Shares of the friction that a load is tried with that the friction does not hold.
+// Shares of the friction, tried for a load that the full friction does not hold.
 constexpr std::array<double, 8> LARGER_SHARES{1.15, 1.35, 1.6, 2, 2.7, 4, 8, 16};
 constexpr double BLIND_SHARE = 0.25;  // of the strength, where no forces are known
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How well a number predicts whether a grip holds: shares, ROC curves, calibration, and their intervals of 95 %.
+// How well a number predicts whether a grip holds: shares, ROC curves, calibration, and their 95 % intervals.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,20 @@
 
 namespace wholehand {
 
-// What was predicted of one thing, and what came of it. A larger value is a prediction that it rather succeeds; infinite values are
-// allowed, NaN is not. `grip`: things of one grip share their number, from 0, and are resampled together.
+// The prediction for one thing, and its outcome. A larger value predicts success; infinite values are allowed, NaN is not. `grip`: things of one grip
+// share their number, from 0, and are resampled together.
 struct Prediction {
   double value = 0;
   bool success = false;
   std::size_t grip = 0;
 };
 
-// The area under the ROC curve: how often a success has a larger value than a failure, where equal values count half (Mann and
-// Whitney's U over the number of pairs). NaN where there is no success or no failure.
+// The area under the ROC curve: how often a success has a larger value than a failure, with ties counting half (Mann and Whitney's U over the number
+// of pairs). NaN without a success or a failure.
 double auc_of(std::span<const Prediction> predictions);
 
-// Both shares of what has at least some value: of the failures, and of the successes. From (0, 0) to (1, 1), a point for each value
-// that occurs. Empty where there is no success or no failure.
+// The shares of failures and of successes with at least some value: from (0, 0) to (1, 1), a point for each value that occurs. Empty without a
+// success or a failure.
 struct RocPoint {
   double failures = 0, successes = 0;
 };
@@ -33,10 +33,9 @@ std::vector<RocPoint> roc_curve(std::span<const Prediction> predictions);
 
 constexpr int RESAMPLES = 1000;  // of a bootstrap
 
-// A bootstrap by grips: a resample draws as many grips as there are, with replacement, and takes all that belongs to each. A trial
-// of a grip says little that another one of it has not said, so trials are not drawn by themselves. The interval is from the 2.5th
-// to the 97.5th percentile. Resamples without a success or without a failure are left out; NaN where more than half of them are.
-// The same on any machine.
+// A bootstrap by grips: a resample draws as many grips as there are, with replacement, and takes everything that belongs to each, because trials of
+// one grip are not independent. The interval is from the 2.5th to the 97.5th percentile. Resamples without a success or a failure are left out; NaN
+// if these are more than half. The same on any machine.
 struct Auc {
   double auc = std::numeric_limits<double>::quiet_NaN();
   Interval interval;
@@ -44,7 +43,7 @@ struct Auc {
 };
 Auc auc_with_interval(std::span<const Prediction> predictions, std::uint64_t seed);
 
-// AUC of `a` less AUC of `b`, of the same things in the same order: both by the same resamples.
+// AUC of `a` minus AUC of `b`, for the same things in the same order, with the same resamples.
 struct AucDifference {
   double difference = std::numeric_limits<double>::quiet_NaN();
   Interval interval;
@@ -53,16 +52,16 @@ AucDifference auc_difference(std::span<const Prediction> a, std::span<const Pred
 
 // ---- efforts ----
 
-// One trial: what effort was predicted, and whether it held.
+// One trial: its predicted effort, and whether it held.
 struct EffortTrial {
   double effort = 0;  // may be infinite
   bool held = false;
 };
 
-// Trials with an effort in [from, to); the last bin has all from `from` on, the infinite ones too.
+// Trials with an effort in [from, to); the last bin has everything from `from` on, including infinite ones.
 struct CalibrationBin {
   double from = 0, to = 0;
-  double mean = 0;  // effort of the finite ones; NaN without any
+  double mean = 0;  // effort of the finite ones; NaN if there are none
   Share held;
 };
 std::vector<CalibrationBin> calibration_bins(std::span<const EffortTrial> trials);

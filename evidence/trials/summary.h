@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What trials print when they are done.
+// The final terminal output of trials.
 #pragma once
 
 #include <string>

@@ -27,7 +27,7 @@ struct TrialCase {
   int material = 0;   // six_forces: place in TrialSettings::materials
 };
 
-// What six_forces takes for the vessel.
+// The vessel's values for six_forces.
 struct TrialMaterial {
   std::string name;                                            // "scene", "DexGraspBench"
   double mass = std::numeric_limits<double>::quiet_NaN();      // kg; NaN: that of the state
@@ -38,7 +38,7 @@ struct TrialMaterial {
 // The numbers of a run. Lengths m, angles rad, times s.
 struct TrialSettings {
   TrialModel model = TrialModel::hand;
-  double squeeze = 1.25;                                       // how much more than the least the fingers press
+  double squeeze = 1.25;                                       // factor on the fingers' least forces
   double mass = std::numeric_limits<double>::quiet_NaN();      // kg, of the whole in every state; NaN: that of the state
   double friction = std::numeric_limits<double>::quiet_NaN();  // NaN: the scene's
   // DexGraspBench sets MuJoCo's torsional coefficient to 20 mm, which is mu gamma.
@@ -53,13 +53,13 @@ struct TrialSettings {
   double buried = 3e-3;                                    // a finger deeper once closed: discarded
 };
 
-// Why a trial is not scored, or was not held.
+// Why a trial is discarded, or was not held.
 enum class TrialReason {
   none,      // held
   overlap,   // discarded: the hand starts too deep in the vessel
   buried,    // discarded: a finger is too deep in it once closed
-  diverged,  // discarded: the engine gave a warning or something that is no number
-  release,   // lost while it settles after it was let go
+  diverged,  // discarded: the engine gave a warning or a number that is not finite
+  release,   // lost while it settled after the release
   turned,    // lost: turned too far in the hand
   moved,     // lost: moved too far in the hand
   earlier,   // lost at a smaller tilt of the same fill
@@ -70,14 +70,14 @@ struct TrialOutcome {
   bool held = false;
   bool discarded = false;
   TrialReason reason = TrialReason::none;
-  std::string detail;         // what the engine said, of a discarded one
-  double slip = 0;            // largest way of a contact on the vessel since the release, m
+  std::string detail;         // the engine's words, for a discarded one
+  double slip = 0;            // largest slide of a contact on the vessel since the release, m
   double move = 0, turn = 0;  // largest of the vessel since the release, m, rad
   double when = 0;            // of the loss, s since the release; 0 where held
   double tilt_lost = 0;       // at which it was lost, rad
 };
 
-// A grip where a deviation has put it, tried in all its cases.
+// A grip moved by a deviation, tried in all its cases.
 struct Placement {
   bool is_possible = false;                // feasible and plausible there; else it is not tried
   bool held = false;                       // in every case
@@ -93,7 +93,7 @@ struct TrialFrame {
   Triple place{};                              // of the vessel's origin, m
   std::array<double, 4> rotation{1, 0, 0, 0};  // w, x, y, z
   Triple up{0, 1, 0};                          // against gravity
-  PosedHand joints{};                          // m; of the model `contacts` as posed
+  PosedHand joints{};                          // m; as posed for the model `contacts`
 };
 
 struct TrialTrack {
@@ -106,12 +106,11 @@ class TrialEngine {
  public:
   virtual ~TrialEngine() = default;
   virtual std::string name() const = 0;  // "MuJoCo 2.2.2"
-  // Throws Error (usage), with the vessel's name and the reason, where the vessel or the scene's hand has no model: to be asked
-  // before any grip is tried. Says nothing of a single grip.
+  // Throws Error (usage), with the vessel's name and the reason, if the vessel or the scene's hand has no model; call it before trying any grip. It
+  // does not check single grips.
   virtual void check(std::size_t vessel) const { static_cast<void>(vessel); }
-  // One outcome for each case, in their order. Cases of one fill of fill_tilt are one run of the engine through ascending tilts,
-  // whose outcome does not depend on which further tilts are asked for beyond the last. `tracks`, if asked for, gets one for each
-  // case. `grip` is feasible and plausible. Throws Error as `check`.
+  // One outcome for each case, in order. Cases of one fill of fill_tilt are one run of the engine through ascending tilts; an outcome does not depend
+  // on further tilts after it. `tracks`, if requested, gets one for each case. `grip` is feasible and plausible. Throws Error as `check`.
   virtual std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                         std::vector<TrialTrack>* tracks = nullptr) const = 0;
 };

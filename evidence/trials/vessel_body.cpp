@@ -42,7 +42,7 @@ bool is_convex_at(const Point2& a, const Point2& b, const Point2& c) {
   return ux * vy - uy * vx >= -1e-9 * std::hypot(ux, uy) * std::hypot(vx, vy);
 }
 
-// All between two levels are as far from the axis: a cylinder, with or without its ends.
+// Whether everything between two levels is equally far from the axis: a cylinder, with or without its ends.
 bool is_upright(const std::vector<Point2>& points, std::size_t from, std::size_t to, double radius) {
   for (std::size_t k = from; k <= to; ++k) {
     const bool is_end = points[k][0] < FLAT && (points[k][1] == points[from][1] || points[k][1] == points[to][1]);
@@ -51,8 +51,8 @@ bool is_upright(const std::vector<Point2>& points, std::size_t from, std::size_t
   return true;
 }
 
-// Whether an arc about the axis that ends at a point of the outline may go on to its own top: it grows narrower from there on, and
-// what lies above is nowhere narrower than the arc's end before that.
+// Whether an arc about the axis that ends at a point of the outline may continue to its own top: it narrows from there on, and the part above is
+// nowhere narrower than the arc's end before that.
 bool holds_the_rest(const std::vector<Point2>& points, std::size_t end, double middle, double top) {
   if (points[end][1] < middle - FLAT) return false;
   for (std::size_t k = end + 1; k < points.size() && points[k - 1][1] < top; ++k)
@@ -120,7 +120,7 @@ std::vector<ConvexPiece> revolved_pieces(const VesselData& vessel) {
   return pieces;
 }
 
-// How far a mesh's vertices are in front of one of its sides, m: 0 of a convex one. Ends at the first that is too much.
+// How far a mesh's vertices are in front of one of its sides, m: 0 for a convex one. Stops at the first that exceeds the limit.
 double hollow_depth(const MeshBody& body) {
   double deepest = 0;
   for (const auto& triangle : body.triangles) {
@@ -227,7 +227,7 @@ struct Moments {
   }
 };
 
-// The middle of the edges that only one triangle has; of a closed mesh, whose volume depends on no such place, the origin.
+// The middle of the edges of only one triangle; for a closed mesh, whose volume does not depend on it, the origin.
 glm::dvec3 middle_of_holes(const MeshBody& body) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const auto& triangle : body.triangles)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vessel as a physics engine takes it: convex pieces of its outer form, and what it weighs with what is in it.
+// The vessel as a model for a physics engine: convex pieces of its outer form, and the weight of vessel and contents.
 #pragma once
 
 #include <array>
@@ -13,45 +13,43 @@
 
 namespace wholehand {
 
-constexpr double FORM_TOLERANCE = 0.05e-3;  // m, of an arc from the cones that stand for it
+constexpr double FORM_TOLERANCE = 0.05e-3;  // m, between an arc and the cones that stand for it
 constexpr int FORM_SIDES = 256;             // of a piece of FEW_RINGS at most: its normals are off by 0.7 degrees
-constexpr int ROUNDED_SIDES = 64;           // of one of more rings: by 2.8 degrees, as those of its arcs
+constexpr int ROUNDED_SIDES = 64;           // of one with more rings: by 2.8 degrees, like those of its arcs
 constexpr std::size_t FEW_RINGS = 8;
-constexpr double CONVEX_TOLERANCE = 0.2e-3;  // m, that a mesh may differ from its convex hull
+constexpr double CONVEX_TOLERANCE = 0.2e-3;  // m, the allowed difference between a mesh and its convex hull
 
 enum class PieceShape { hull, cylinder, ball };
 
-// A part of a vessel, vessel frame, m. What the engine has a shape for is exact: on a wall of flat sides a tip that presses near
-// the limit of its friction slides off where the round wall holds it.
+// A part of a vessel, vessel frame, m. Shapes that the engine knows are exact: on a wall of flat sides, a tip that presses near its friction limit
+// slides off where the round wall would hold it.
 struct ConvexPiece {
   PieceShape shape = PieceShape::hull;
-  std::vector<Triple> vertices;          // of which it is the hull; of a cylinder and a ball they lie on it
+  std::vector<Triple> vertices;          // points whose hull it is; for a cylinder and a ball they lie on it
   double radius = 0, low = 0, high = 0;  // of a cylinder or a ball, and the heights of its ends
 };
 
-// The outer form of a vessel, closed across its mouth. A body of revolution is cut where its outline is not convex: what lies
-// between two cuts is an upright cylinder; a ball, whose rest lies within the pieces above it; or the hull of a stack of frusta. A
-// mesh is one piece where it is its own convex hull to CONVEX_TOLERANCE.
-// Throws Error (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down again;
-// a mesh with hollows.
+// The outer form of a vessel, closed across its mouth. A body of revolution is cut where its outline is not convex. The part between two cuts is an
+// upright cylinder, a ball whose rest lies within the pieces above it, or the hull of a stack of frusta. A mesh is one piece if it equals its convex
+// hull to CONVEX_TOLERANCE. Throws Error (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down
+// again; a mesh with hollows.
 std::vector<ConvexPiece> convex_pieces(const VesselData& vessel);
 
-// Mass, center and inertia about that center, of axes along the frame's. Vessel frame, kg, m, kg m2.
+// Mass, center, and inertia about that center with axes along the frame's. Vessel frame, kg, m, kg m2.
 struct RigidLoad {
   double mass = 0;
   Triple center{};
   std::array<double, 9> inertia{};  // rows
 };
 
-// The glass of a vessel, and what is left in it at a state: what gravity and inertia take of both, frozen.
+// The glass of a vessel and the remaining liquid at a state: mass and inertia of both, frozen.
 class VesselLoad {
  public:
   // `pour` is the horizontal direction towards which the vessel tilts. Both must outlive this.
   VesselLoad(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const Triple& pour);
 
-  // Mass and center are those of kernel 6. The inertia of the wall is that of its slices; that of the liquid is of the upright
-  // vessel with as much in it, about its own center. `mass`, where it is a number, is that of the whole instead, with all else in
-  // proportion.
+  // Mass and center are kernel 6's. The inertia of the wall is computed by slices; that of the liquid is the upright vessel's with as much in it,
+  // about its own center. `mass`, if not NaN, replaces the total mass, with everything else in proportion.
   RigidLoad at(double fill, double tilt, double mass) const;
 
  private:
@@ -69,7 +67,7 @@ class VesselLoad {
 
 // Both as one body.
 RigidLoad joined(const RigidLoad& a, const RigidLoad& b);
-// Each number at `share` of the way from a to b: between two states that are near to each other.
+// Interpolates each number at `share` of the way from a to b, two states that are near each other.
 RigidLoad load_between(const RigidLoad& a, const RigidLoad& b, double share);
 
 }  // namespace wholehand

@@ -13,7 +13,7 @@ namespace {
 
 Functions api;
 
-// The floats of a Vector3 or Quat.
+// The floats of Vector3 and Quat.
 template <class To>
 To floats(const double* from) {
   constexpr int count = sizeof(To) / sizeof(float);

@@ -35,7 +35,7 @@ std::string SessionThread::failure() {
   return failure_;
 }
 
-// Each tick has the number of the period that it is in. A missed period stays missing: the session knows the time by these numbers.
+// Each tick has the number of its period. A missed period stays missing, because the session tells the time by these numbers.
 void SessionThread::run(double period) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();

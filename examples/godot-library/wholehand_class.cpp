@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The class `Wholehand` for GDScript, on the C face of libwholehand. main.gd shows its use, and docs/engines.md lists its methods.
-// A method that is refused prints the line as an error, keeps it for message(), and returns null.
+// The class `Wholehand` for GDScript, on the C interface of libwholehand. main.gd shows its use, and docs/engines.md lists its methods. A refused
+// method prints the line as an error, keeps it for message(), and returns null.
 #include <wholehand/wholehand.h>
 
 #include <cmath>

@@ -66,7 +66,7 @@ struct Piece {
   }
 };
 
-// Grips that a file has, and what vouches for them. A rank keeps those that it looks after.
+// A file's grips, and what vouches for them. A rank keeps those that it is responsible for.
 struct OwnStretch {
   std::uint64_t vessel = 0, first = 0, last = 0;
   std::uint64_t group = 0;
@@ -144,7 +144,7 @@ std::optional<Error> take_error(PacketReader& packet, int rank) {
   return Error(code, fmt::format("rank {} on {}: {}", rank, node, line), remedy);
 }
 
-// Throws on every rank what the leader knows of, if that is anything.
+// Throws on every rank what the leader reports, if anything.
 void share_error(Team& team, const std::optional<Error>& known) {
   const ExitCode code = share_value(team, known ? known->code : ExitCode::done);
   if (code == ExitCode::done) return;
@@ -153,7 +153,7 @@ void share_error(Team& team, const std::optional<Error>& known) {
   throw Error(code, "");
 }
 
-// An Error of any rank is thrown by all: the leader's own, or else that of the lowest rank.
+// All ranks throw an Error of any rank: the leader's own, or else the lowest rank's.
 void agree(Team& team, const std::optional<Error>& own) {
   PacketWriter packet;
   put_error(packet, team, own);
@@ -166,7 +166,7 @@ void agree(Team& team, const std::optional<Error>& own) {
   share_error(team, first);
 }
 
-// A failure on one rank that no other knows of ends all ranks: they would wait for it for ever.
+// A failure on one rank that no other knows about ends all ranks, because they would wait for it forever.
 ExitCode or_abort(Team& team, const std::function<ExitCode()>& work) {
   try {
     return work();
@@ -177,7 +177,7 @@ ExitCode or_abort(Team& team, const std::function<ExitCode()>& work) {
   }
 }
 
-// Several devices of the best kind on a node are dealt out among its ranks.
+// Distributes several devices of the best kind on a node among its ranks.
 std::string own_device(const Team& team, const std::string& on) {
   const std::vector<host::DeviceInfo> devices = host::list_devices();
   const host::DeviceInfo& chosen = host::choose_device(devices, on);
@@ -294,13 +294,13 @@ class ClusterSweep final : public Sweep {
  private:
   // ---- what all do together ----
 
-  // Does the work on each rank. An Error of any of them is thrown by all.
+  // Does the work on each rank. All ranks throw an Error of any of them.
   void agree(const std::function<void()>& work) { wholehand::agree(team_, caught(work)); }
   void share_error(const std::optional<Error>& known) { wholehand::share_error(team_, known); }
 
   bool share_flag(bool from_leader) { return share_value(team_, from_leader); }
 
-  // All ranks compute the same, by the same program. They may do so with different devices; then the file names all.
+  // All ranks must compute the same, with the same program. They may use different devices; then the file names all.
   void compare_ranks() {
     std::map<std::string, std::string> own = identity();
     PacketWriter packet;
@@ -357,17 +357,16 @@ class ClusterSweep final : public Sweep {
   struct Group {
     std::string name;        // of their shard
     std::vector<int> ranks;  // ascending
-    bool is_new = false;     // their file has nothing of the sweep that is resumed
+    bool is_new = false;     // their file has nothing of the resumed sweep
   };
   static constexpr std::uint64_t NOWHERE = ~std::uint64_t{0};  // the shard is not here
-  static constexpr char LOST =
-      '/';  // how the mark names a shard that is lost: its node may come back with a new one of the same name
+  static constexpr char LOST = '/';  // how the mark names a lost shard: its node may come back with a new one of the same name
 
   std::size_t own_group() const { return group_of_[static_cast<std::size_t>(team_.rank())]; }
 
   std::string own_name() const { return !options_.shards ? "" : options_.shards->empty() ? team_.node() : *options_.shards; }
 
-  // Before any work: a name that is too long would be refused by the file system once the ranks are under way.
+  // Before any work: the file system would refuse a too long name only once the ranks are running.
   void check_shard_name() const {
     if (!options_.shards) return;
     const std::string file = base_name(shard_path(names_, own_name()) + SHARD_LOCK_END);
@@ -376,7 +375,7 @@ class ClusterSweep final : public Sweep {
           "{}: a file's name has {} letters at most; name another result with -o, or another shard with --shard", file, NAME_MAX));
   }
 
-  // A sweep that is to go on, but whose mark is on another node, must not begin again: that would replace all shards.
+  // A sweep to resume whose mark is on another node must not start again, because that would replace all shards.
   void check_lost_mark() {
     struct stat file {};
     const bool is_new = options_.shards && options_.resume && stat(names_.mark.c_str(), &file) != 0;
@@ -419,7 +418,7 @@ class ClusterSweep final : public Sweep {
     shard_id_ = reader.take_text();
   }
 
-  // A node that got no grips leaves no file.
+  // A node without grips leaves no file.
   void remove_unused_shard(const std::string& path) {
     std::vector<std::uint64_t> used(groups_.size());
     for (const VesselProgress& vessel : mark_.vessels) {
@@ -433,7 +432,7 @@ class ClusterSweep final : public Sweep {
     if (own_group() > 0 && used[own_group()] == 0 && groups_[own_group()].ranks[0] == team_.rank()) unlink(path.c_str());
   }
 
-  // Throws where ranks of one group have opened different files of one name.
+  // Throws if ranks of one group have opened different files of one name.
   void compare_files(const ResultFile& file) {
     std::vector<std::uint64_t> inodes{file.inode()};
     std::vector<std::string> nodes{team_.node()};
@@ -460,7 +459,7 @@ class ClusterSweep final : public Sweep {
     share_error(unlike);
   }
 
-  // Names the rank that looks after each stretch, one after the other: one that has it in its file, or, where it is nowhere, any.
+  // Assigns each stretch to a rank in turn: one that has it in its file or, if no file has it, any.
   class Turns {
    public:
     explicit Turns(const std::vector<Group>& groups, int ranks)
@@ -477,7 +476,7 @@ class ClusterSweep final : public Sweep {
     std::vector<std::size_t> turns_;
   };
 
-  // Where the grips of a stretch lie, as far as the leader's mark and the groups tell.
+  // Where the grips of a stretch lie, according to the leader's mark and the groups.
   std::uint64_t group_of(const Stretch& stretch) const {
     if (stretch.shard.empty()) return 0;
     for (std::size_t group = 1; group < groups_.size(); ++group)
@@ -502,7 +501,7 @@ class ClusterSweep final : public Sweep {
                            counted(grips, "grip")));
   }
 
-  // The stretches of the leader's mark that no shard has, by the rank that computes them again, in its order. Marks them as lost.
+  // The stretches of the leader's mark that no shard has, by the rank that recomputes them, in its order. Marks them as lost.
   std::vector<std::vector<Stretch*>> lost_stretches() {
     std::vector<std::vector<Stretch*>> lost(static_cast<std::size_t>(team_.size()));
     Turns turns(groups_, team_.size());
@@ -515,7 +514,7 @@ class ClusterSweep final : public Sweep {
     return lost;
   }
 
-  // Which grips are there, where, and what vouches for them: each rank keeps what it looks after. `is_there`: this rank's file is not new.
+  // Which grips exist, where, and what vouches for them: each rank keeps its own part. `is_there`: this rank's file is not new.
   void share_stretches(bool is_there) {
     PacketWriter own;
     own.put(is_there);
@@ -580,8 +579,7 @@ class ClusterSweep final : public Sweep {
     reported_ = done();
   }
 
-  // Each rank reads some of the stretches back, or computes them again. From time to time the mark learns where the latter lie now. False:
-  // interrupted.
+  // Each rank reads some of the stretches back, or recomputes them. From time to time the mark records where the latter now lie. False: interrupted.
   bool repair(ResultFile& file, InterruptGuard& interrupt) {
     const bool is_whole = !has_stretches_ || repair_stretches(file, interrupt);
     stretches_ = {};
@@ -626,7 +624,7 @@ class ClusterSweep final : public Sweep {
     return is_whole;
   }
 
-  // Each rank has restored `restored` more of its lost stretches: its file has them now. Tells the leader whether there are any.
+  // Each rank has restored `restored` more of its lost stretches in its file. Tells the leader whether there are any.
   bool move_stretches(std::vector<std::vector<Stretch*>>& lost, std::uint64_t restored) {
     std::vector<std::uint64_t> counts{restored};
     PacketWriter packet;
@@ -643,7 +641,7 @@ class ClusterSweep final : public Sweep {
     return is_moved;
   }
 
-  // Each rank reads back what it has written: one rank alone would take longer for it than all for the grips. False: interrupted.
+  // Each rank reads back what it wrote: a single rank would take longer than all ranks take for the grips. False: interrupted.
   bool read_back(ResultFile& file, InterruptGuard& interrupt) {
     bool is_whole = true;
     agree([&] {
@@ -659,7 +657,7 @@ class ClusterSweep final : public Sweep {
     return is_whole;
   }
 
-  // Each rank finds the checksums of some blocks of the result, for the same reason; not of the best grips, which are not there yet.
+  // Each rank computes the checksums of some blocks of the result, for the same reason, but not of the best grips, which do not exist yet.
   void share_checksums(const ResultFile& file) {
     PacketWriter packet;
     agree([&] {
@@ -704,8 +702,8 @@ class ClusterSweep final : public Sweep {
 
   // ---- the counter's work ----
 
-  // Takes pieces until there are none, or until one was not finished: then nobody gets a further one. `compute` answers how many grips of a range it
-  // has done.
+  // Takes pieces until there are none, or until one was not finished; then nobody gets another. `compute` returns how many grips of a range it has
+  // done.
   void take_pieces(const WorkRange& work, InterruptGuard& interrupt,
                    const std::function<std::uint64_t(const GripRange&)>& compute) {
     PieceSize size(team_.size(), work.size(), options_.piece_seconds);
@@ -772,7 +770,7 @@ class ClusterSweep final : public Sweep {
     return share_flag(done() == total());
   }
 
-  // Computes a range, reporting where it is time. Answers how many of its grips are done.
+  // Computes a range, with reports in time. Returns how many of its grips are done.
   std::uint64_t compute(const GripRange& range, ResultFile& file, InterruptGuard& interrupt) {
     std::uint64_t first = range.first;
     while (first < range.last) {
@@ -883,7 +881,7 @@ class ClusterSweep final : public Sweep {
     figures_[0] = own_;
   }
 
-  // Pieces that follow the done grips without a gap join them. Pieces after a gap wait: a mark knows only grips without gaps.
+  // Pieces that follow the finished grips without a gap join them. Pieces after a gap wait, because a mark only knows grips without gaps.
   void advance(std::size_t vessel) {
     VesselProgress& progress = mark_.vessels[vessel];
     auto& pending = pending_[vessel];
@@ -1021,7 +1019,7 @@ class ClusterSweep final : public Sweep {
     return true;
   }
 
-  // The leader decides, and all ranks find the hands that it asks for.
+  // The leader decides, and all ranks find the hands that it requests.
   void end_pass_together(ListChooser& chooser, VesselProgress& vessel) {
     const auto ranks = static_cast<std::size_t>(team_.size()), rank = static_cast<std::size_t>(team_.rank());
     const auto own_part = [&](const std::vector<Candidate>& grips, std::size_t of) {
@@ -1063,8 +1061,8 @@ class ClusterSweep final : public Sweep {
     ask({});
   }
 
-  // All grips of a vessel once more, by all ranks: from their memories, or else from the file, or else computed again. The file matters to a
-  // sweep of several sessions, each shorter than what the grips take. False: interrupted.
+  // All grips of a vessel once more, by all ranks: from memory, else from the file, else recomputed. The file matters to a sweep of several sessions,
+  // each shorter than the grips take. False: interrupted.
   bool pass(std::size_t v, ListChooser& leaders, const ResultFile& file, InterruptGuard& interrupt) {
     std::vector<ListProgress> lists(plan().hand_scales());
     PacketWriter packet;

@@ -13,18 +13,17 @@
 
 namespace wholehand {
 
-// What run_sweep does, shared among the ranks: the same file, byte for byte but for times and names of devices, the same lists and words, however
-// many there are. Every rank calls it. Rank 0 prints; an error of any rank is thrown by all, with its line on rank 0 alone (the others' is
-// empty). The scene is read by every rank for itself, and refused where it is not the same. `interrupt` is there before, as devices may take
-// long to open.
+// Does what run_sweep does, shared among any number of ranks. The file is the same byte for byte, except times and names of devices, and so are lists
+// and text. Every rank calls it. Rank 0 prints. If a rank fails, all ranks throw its error, with the line on rank 0 alone (the others' is empty).
+// Every rank reads the scene itself; if the scenes differ, the sweep is refused. `interrupt` exists before, because devices may take long to open.
 ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options,
                            InterruptGuard& interrupt);
 
-// The same with other parts, for a scene that is read.
+// The same with other parts, for a scene that has been read.
 ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts,
                            InterruptGuard& interrupt);
 
-// For a rank that ends before it gets there, in its place: the others wait for it, and end with this error.
+// For a rank that ends early, instead: the others, which wait for it, end with this error.
 void leave_cluster_sweep(Team& team, const Error& error);
 
 }  // namespace wholehand

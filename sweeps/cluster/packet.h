@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values as bytes, for a message from one rank to another of the same program.
+// Values as bytes, for messages between ranks of the same program.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ class PacketWriter {
   std::string bytes_;
 };
 
-// Takes values in the order in which they were put. Throws std::runtime_error where the packet ends too early.
+// Takes values in the order in which they were put. Throws std::runtime_error if the packet ends too early.
 class PacketReader {
  public:
   // `bytes` must outlive the object.

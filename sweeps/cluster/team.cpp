@@ -55,7 +55,7 @@ int system_error(int mpi_error) {
   }
 }
 
-// Each rank opens the file for itself: then it syncs when it wants to, and waits for no other. No two ranks write to one place.
+// Each rank opens the file itself, so that it can sync when it wants to, without waiting for others. No two ranks write to one place.
 class MpiFile final : public OutputBytes {
  public:
   explicit MpiFile(const std::string& path) {
@@ -134,8 +134,7 @@ struct Team::Arriving {
 };
 
 Team::Team(int& argc, char**& argv) : mpi_(std::make_unique<Mpi>()) {
-  // Open MPI 4.1 chooses its windows by RDMA between nodes that have TCP alone, and then finds that they cannot be made (MPI_ERR_WIN). A
-  // choice of the user's stays.
+  // Open MPI 4.1 chooses RDMA windows even between nodes that only have TCP, and then cannot make them (MPI_ERR_WIN). A choice of the user's stays.
   setenv("OMPI_MCA_osc", "^rdma", 0);
   int level = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);
@@ -177,7 +176,7 @@ void Team::send(const std::string& message) {
   MPI_Isend(sent.message.data(), static_cast<int>(sent.message.size()), MPI_BYTE, 0, MESSAGE_TAG, MPI_COMM_WORLD, &sent.request);
 }
 
-// Begins to receive what has come from a source. A large message takes its time, as its sender may be at work: rank 0 does not wait for it.
+// Begins to receive what a source has sent. A large message takes time, because its sender may be working; rank 0 does not wait for it.
 void Team::look_for(int source) {
   while (source != MPI_ANY_SOURCE || arriving_.size() < MOST_ARRIVING) {
     int is_there = 0, size = 0;
@@ -193,7 +192,7 @@ void Team::look_for(int source) {
   }
 }
 
-// The first message of a source that is whole, and has none of the same rank before it.
+// The first complete message of a source, with no earlier one of the same rank.
 bool Team::take(int source, std::string& message, int& from) {
   for (auto one = arriving_.begin(); one != arriving_.end(); ++one) {
     if (source != MPI_ANY_SOURCE && source != one->from) continue;

@@ -32,8 +32,8 @@ std::vector<GripRange> WorkRange::piece(std::uint64_t first, std::uint64_t count
 
 std::uint64_t PieceSize::next(std::uint64_t left, double elapsed) const {
   double seconds = std::max(seconds_, elapsed * ELAPSED_SHARE);
-  // A rank asks for a piece before it computes the one before. A slow one would end after the others if it took a share of the grips, and takes one
-  // of the time that all need for the rest.
+  // A rank requests a piece before it computes the previous one. A slow rank would end after the others if it took a share of the grips, so it takes
+  // a share of the time that all need for the rest.
   if (left < all_) seconds = std::min(seconds, elapsed * static_cast<double>(left) / static_cast<double>(all_ - left) / SHARES);
   const auto at_rate = static_cast<std::uint64_t>(std::min(rate_ * seconds, 1e15));
   const std::uint64_t share = left / (SHARES * static_cast<std::uint64_t>(ranks_));

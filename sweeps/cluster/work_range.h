@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grips that are left of a sweep as one row of numbers, from which ranks take pieces.
+// The remaining grips of a sweep as one row of numbers, from which ranks take pieces.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct GripRange {
 
 class WorkRange {
  public:
-  // `left`: one after the other, in the order in which they are handed out.
+  // `left`: one after the other, in the order of distribution.
   explicit WorkRange(std::vector<GripRange> left);
 
   std::uint64_t size() const { return size_; }
@@ -29,13 +29,13 @@ class WorkRange {
   std::uint64_t size_ = 0;
 };
 
-// How many grips a rank takes at a time. Few at first, since nothing is known of it; then as many as it does in some seconds, and towards the end no
-// more than a part of what all have left, so that nobody waits long for the last.
+// How many grips a rank takes at a time: few at first, while its speed is unknown; then as many as it does in some seconds; towards the end no more
+// than a part of what is left, so that nobody waits long for the last.
 class PieceSize {
  public:
-  // `all`: grips of all ranks; `seconds`: of a piece, at least, where there is much to do.
+  // `all`: grips of all ranks; `seconds`: the least duration of a piece while much is left.
   PieceSize(int ranks, std::uint64_t all, double seconds) : ranks_(ranks), all_(all), seconds_(seconds) {}
-  // `left`: of all grips, as far as this rank knows; `elapsed`: s since the work began.
+  // `left`: remaining grips of all ranks, as far as this rank knows; `elapsed`: s since the work began.
   std::uint64_t next(std::uint64_t left, double elapsed) const;
   void done(std::uint64_t grips, double seconds);
 

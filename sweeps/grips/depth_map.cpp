@@ -52,8 +52,8 @@ double DepthMap::least_near(const Flat& p) const {
   return least;
 }
 
-// Pixels whose middle lies in the triangle, its sides and a hair more included, so that neighbors leave no gap. Shares of b and c and the depth
-// are linear: on a row of pixels the shares of all three corners are at least 0 from one place to another.
+// Pixels whose middle lies in the triangle, including its sides and a tiny margin, so that neighbors leave no gap. Shares of b and c and the depth
+// are linear: on a row of pixels the shares of all three corners are at least 0 within one interval.
 void DepthMap::draw(const Triple& a, const Triple& b, const Triple& c) {
   const auto place = [&](const Triple& p) { return Flat{(p[0] - low_[0]) / pixel_ - 0.5, (p[1] - low_[1]) / pixel_ - 0.5}; };
   const Flat pa = place(a), pb = place(b), pc = place(c);  // the middle of pixel (0, 0) at the origin
@@ -84,8 +84,8 @@ void DepthMap::draw(const Triple& a, const Triple& b, const Triple& c) {
   }
 }
 
-// From the lower side of a covered pixel above an uncovered one, with what is covered on the left. Where two covered pixels meet at a corner
-// only, the line stays with the one it follows.
+// Starts at the lower side of a covered pixel above an uncovered one, with the covered area on the left. If two covered pixels only meet at a corner,
+// the line stays with the one it follows.
 std::vector<Flat> DepthMap::follow_border(int column, int row, std::vector<bool>& seen) const {
   std::vector<Flat> border;
   const std::array<int, 2> start{column, row};

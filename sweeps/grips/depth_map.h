@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is nearest at each place of a view along one direction, on a raster: which lines of a drawing are hidden, and what it covers.
+// The nearest surface at each pixel of a view along one direction: decides which lines of a drawing are hidden, and what it covers.
 #pragma once
 
 #include <array>
@@ -11,22 +11,22 @@
 
 namespace wholehand {
 
-using Flat = std::array<double, 2>;  // a place in a view or on a sheet: to the right, and up or down as noted there
+using Flat = std::array<double, 2>;  // a point in a view or on a sheet: to the right, and up or down as noted there
 
 class DepthMap {
  public:
   static constexpr double NOTHING = -std::numeric_limits<double>::infinity();
 
-  // Triangles of `points`, which are right, up and towards the viewer, m; `pixel` is the raster's step, m: at most 4,096 steps are laid
-  // across, wider ones where it is too small.
+  // Triangles of `points` (right, up and towards the viewer, m); `pixel` is the raster's step, m. There are at most 4,096 steps across; a smaller
+  // `pixel` is widened.
   DepthMap(const std::vector<Triple>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles, double pixel);
 
   double pixel() const { return pixel_; }
-  // How near to the viewer the nearest triangle is at the middle of the pixel that holds p; NOTHING where there is none.
+  // The depth of the nearest triangle at the middle of the pixel that contains p; NOTHING if there is none.
   double nearest_at(const Flat& p) const { return depth_at(column_of(p[0]), row_of(p[1])); }
-  // The least of that over the pixel and its eight neighbors: whether a line at a depth is hidden, though it may lie on what covers it.
+  // The least depth over the pixel and its eight neighbors, to decide whether a line is hidden even if it lies on the covering surface.
   double least_near(const Flat& p) const;
-  // Closed lines along pixels round all that is covered, to the left of each; corners only, the first not repeated.
+  // Closed lines along pixels around the covered area, which lies to their left; corners only, the first not repeated.
   std::vector<std::vector<Flat>> borders() const;
 
  private:

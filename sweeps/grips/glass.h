@@ -16,12 +16,12 @@ class DrawnGlass {
   // Throws Error as prepare_vessel.
   explicit DrawnGlass(const VesselData& vessel);
 
-  // Where the vessel begins and ends along a horizontal or vertical unit vector, mm.
+  // The vessel's extent along a horizontal or vertical unit vector, mm.
   std::array<double, 2> extent_along(const Triple& axis) const;
-  // What `covers` and `draw` need of a view of a mesh; details below `pixel` mm are left out. The view keeps references to this.
+  // Prepares what `covers` and `draw` need for a view of a mesh; details below `pixel` mm are left out. The view keeps references to this.
   void look(DrawnView& view, double pixel) const;
-  // Whether the glass is between a bone from a to b (m) and the viewer. In front and side view a bone beside a mesh counts as behind it
-  // where it is further away than its middle.
+  // Whether the glass hides a bone from a to b (m). In front and side view a bone beside a mesh counts as behind it if it is further away than the
+  // mesh's middle.
   bool covers(const DrawnView& view, const Triple& a, const Triple& b) const;
   void draw(std::string& svg, const DrawnView& view) const;
 

@@ -9,13 +9,13 @@
 
 namespace wholehand {
 
-// How finely round things are cut: flat faces round the glass.
+// The number of flat faces around the glass and other round surfaces.
 constexpr int GLB_SEGMENTS = 64;
 
-// A ball's radius as a share of the joint's: its color shows over the bones, whose flat faces are up to 1.2 % within the round.
+// A ball's radius as a share of the joint's: large enough to show above the bones, whose flat faces lie up to 1.2 % inside the round surface.
 constexpr double GLB_BALL_SHARE = 1.03;
 
-// By what such a file is known as drawn here.
+// Identifies files drawn by this program.
 inline constexpr std::string_view GRIP_GLB_MARK = "\"generator\":\"wholehand";
 
 // The bytes of a .glb (glTF 2.0: m, +y up). Nodes, each the child of the one before it where it is indented:

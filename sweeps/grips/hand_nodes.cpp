@@ -19,8 +19,8 @@ using core_f64::Vec3;
 
 constexpr double NO_BONE = 1e-9;  // m: shorter ones have no direction
 
-// The joint's frame from the direction towards its finger's base and the axis about which the finger bends. A bone that lies along that
-// axis (a point that moved on its own, pose paper) keeps the back of the hand instead.
+// The joint's frame from the direction towards its finger's base and the axis about which the finger bends. If a bone lies along that axis (a point
+// that moved on its own, pose paper), the back of the hand replaces the axis.
 Mat3 joint_rotation(Vec3 backward, Vec3 bend_axis, Vec3 back) {
   Vec3 x = bend_axis - glm::dot(bend_axis, backward) * backward;
   if (glm::length(x) < 1e-6) x = glm::cross(back, backward);
@@ -28,7 +28,7 @@ Mat3 joint_rotation(Vec3 backward, Vec3 bend_axis, Vec3 back) {
   return Mat3(x, glm::cross(backward, x), backward);
 }
 
-// Where the kernel placed the hand: from what the result keeps of it. All in the scene of the right hand.
+// Where the kernel placed the hand, recovered from the result. All in the scene of the right hand.
 core_f64::Placement find_placement(const HandData& hand, const core_f64::Hand& ready, const GripInput& grip,
                                    const GripResult& result) {
   const Vec3 thumb = to_vec3(mirrored(result.posed[THUMB_TIP], hand.handedness));

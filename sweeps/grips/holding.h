@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What holding a vessel takes of the whole hand: kernels 9 and 10 over the states of one grip.
+// What holding a vessel demands of the whole hand: kernels 9 and 10 over the states of one grip.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace wholehand {
 
-// One place where the hand presses, with what it presses there. Vessel frame; force on the vessel.
+// One contact of the hand, with its force. Vessel frame; force on the vessel.
 struct HeldContact {
   int joint = 0, digit = 0;  // the digit is a finger, or FINGER_COUNT for the palm
   Triple point{}, normal{};  // m; unit, into the vessel
@@ -21,10 +21,9 @@ struct HeldContact {
   int between = 0;           // number of a sphere of the bone that ends at the joint; 0: the joint
 };
 
-// One state. The least effort lies in [low, effort]; both are infinite where no force of the hand holds the vessel. `forces` of its
-// contacts attain `effort`; all numbers are NaN where `until_poured` leaves the state out. Where the effort is infinite the forces
-// are zero, and `escape` is how the vessel gets away: velocity of the center of mass (m/s) and angular velocity (rad/s), scaled
-// together.
+// One state. The least effort lies in [low, effort]; both are infinite if no force of the hand holds the vessel. `forces` of its contacts attain
+// `effort`. All numbers are NaN if `until_poured` leaves the state out. If the effort is infinite the forces are zero, and `escape` is the vessel's
+// escaping motion: velocity of the center of mass (m/s) and angular velocity (rad/s), scaled together.
 struct StateHold {
   double effort = 0, low = 0;
   double tips = 0;                  // the effort of thumb and index tip alone
@@ -41,7 +40,7 @@ class Holding {
   // At the opening of the grip.
   const core_f64::HandStrength& strength() const { return hand_; }
   StateHold state(const GripState& state) const;
-  // Nothing where the scene has no tilts.
+  // Nothing if the scene has no tilts.
   std::optional<GripHold> over_states() const;
 
  private:

@@ -66,8 +66,8 @@ HullFacet read_facet(const facetT& facet, const Point6& apex) {
 
 }  // namespace
 
-// Option QJ moves each coordinate at random (the same at each call) until no two faces are flat to one another. It is faster here than
-// merging such faces, and does not fail on the many equal places that a regular grip has.
+// Option QJ moves each coordinate randomly (the same at each call) until no two faces are coplanar. Here it is faster than merging such faces, and
+// does not fail on the many coinciding points of a regular grip.
 std::optional<Hull> hull_of(std::vector<Point6> points, const Point6& apex) {
   if (points.size() <= HULL_DIMENSION) return std::nullopt;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> nowhere(std::fopen("/dev/null", "w"), &std::fclose);

@@ -19,7 +19,7 @@ constexpr double ON_AXIS = 1e-12;      // m
 constexpr double SAME_POINT = 1e-9;    // m: where elements meet they do so to rounding
 constexpr double UPRIGHT = 1e-12;      // sine of a tilt
 
-// A triangle between vertices; none where two corners are one point: rings that have shrunk to a point leave such.
+// A triangle between vertices; none if two corners coincide, as in rings that have shrunk to a point.
 void add_triangle(SurfaceMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const auto& p = mesh.positions;
   if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return;
@@ -91,8 +91,8 @@ struct LevelPlane {
   }
 };
 
-// One stretch of a piece of the wall. Heights on a cosine map, because where the plane leaves the wall the angle goes as a square root;
-// as many as keep the angle's steps at 2 pi / segments. A full stretch needs them only along an arc.
+// One stretch of a piece of the wall. Heights follow a cosine map, because the angle varies as a square root where the plane leaves the wall; there
+// are enough to keep the angle's steps at 2 pi / segments. A full stretch needs them only along an arc.
 Stretch make_stretch(const PreparedElement& piece, double low, double high, const LevelPlane& plane, int segments) {
   const core_f64::Element element = core_f64::load_element(piece);
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
@@ -124,7 +124,7 @@ Stretch make_ledge(const Ring& from, const Ring& to, const LevelPlane& plane) {
   return ledge;
 }
 
-// Makes two stretches that follow one another share their ring. Where one of them is full or dry the angle is known without rounding.
+// Makes two consecutive stretches share their ring. If one of them is full or dry the angle is known without rounding.
 void share_ring(Stretch& before, Stretch& after) {
   Ring ring = before.rings.back();
   const auto any = [&](Wetness wetness) { return before.wetness == wetness || after.wetness == wetness; };

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double EDGE_ON = 1e-6;      // cosine between a triangle's normal and the view: seen from its side
 constexpr double LINE_DETAIL = 0.25;  // pixels
-constexpr double SHORT_GAP = 4;       // pixels: hidden for no longer, a line is drawn through
-constexpr double SHORT_LINE = 3;      // pixels: seen for no longer, a line that is hidden elsewhere is not drawn
+constexpr double SHORT_GAP = 4;       // pixels: a line hidden for less is drawn through
+constexpr double SHORT_LINE = 3;      // pixels: a visible piece shorter than this, of a line hidden elsewhere, is not drawn
 
 double length_between(const Flat& a, const Flat& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
@@ -53,7 +53,7 @@ void limit_points(std::vector<std::vector<Flat>>& lines, std::size_t most, doubl
   lines = std::move(kept);
 }
 
-// Edges put end to end, from each vertex where not just two of them meet, then the rings that are left.
+// Joins edges end to end, from each vertex where other than two of them meet, then the remaining rings.
 class EdgeChains {
  public:
   EdgeChains(const std::vector<MeshEdge>& edges, std::size_t vertices)
@@ -209,7 +209,7 @@ std::vector<std::vector<std::uint32_t>> MeshView::chains(bool of_contours) const
   return EdgeChains(chosen, body_.vertices.size()).take();
 }
 
-// A line lies on what it bounds, so it is hidden only where all that is near it on the raster is nearer to the viewer.
+// A line lies on what it bounds, so it is hidden only if everything near it on the raster is nearer to the viewer.
 void MeshView::add_visible(const std::vector<std::uint32_t>& chain, std::vector<std::vector<Flat>>& lines) const {
   const double pixel = depths_.pixel();
   std::vector<LineStretch> stretches;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh as a line drawing shows it from one side, without what is hidden.
+// The visible lines of a mesh in a line drawing from one side.
 #pragma once
 
 #include "core/mesh_body.h"
@@ -11,8 +11,8 @@ namespace wholehand {
 // Points right and up in the view, m.
 struct MeshLines {
   std::vector<std::vector<Flat>> contours;  // edges between a triangle that faces the viewer and one that does not, and open edges
-  std::vector<std::vector<Flat>> creases;   // sharp edges within what faces the viewer
-  std::vector<std::vector<Flat>> covered;   // closed lines round what the mesh covers, the first point not repeated; even-odd
+  std::vector<std::vector<Flat>> creases;   // sharp edges within the visible surface
+  std::vector<std::vector<Flat>> covered;   // closed lines around the mesh's covered area, the first point not repeated; even-odd
 };
 
 // An orthographic view of a mesh. `right`, `up`, `toward` (to the viewer): unit vectors, a right-handed frame. Details below `pixel` m are
@@ -22,11 +22,11 @@ class MeshView {
   // Keeps references to both.
   MeshView(const MeshBody& body, const MeshEdges& edges, const Triple& right, const Triple& up, const Triple& toward, double pixel);
 
-  // Chains of edges, cut where they go behind the mesh, simplified to a quarter of a pixel. At most MOST_LINE_POINTS points in all contours and
-  // creases and as many in `covered`: of more, simplified to four pixels, the longest lines, contours first.
+  // Chains of edges, cut where they go behind the mesh, simplified to a quarter of a pixel. Contours and creases together have at most
+  // MOST_LINE_POINTS points, and so has `covered`; if there are more, they are simplified to four pixels and only the longest lines stay, contours
+  // first.
   MeshLines lines() const;
-  // How much of the mesh's nearest surface lies in front of p, m: negative where p is in front of it; DepthMap::NOTHING where the mesh is
-  // not behind or before p at all.
+  // How far the mesh's nearest surface lies in front of p, m: negative if p is in front of it; DepthMap::NOTHING if the mesh does not cover p.
   double cover_at(const Triple& p) const;
 
  private:
@@ -44,8 +44,8 @@ class MeshView {
 
 constexpr std::size_t MOST_LINE_POINTS = 8000;
 
-// Douglas and Peucker: leaves out points as long as none of them is farther than `tolerance` from the line that is left. The ends stay; of a
-// closed line, whose first point is not repeated, two points far apart.
+// Douglas and Peucker: drops points that are within `tolerance` of the remaining line. The ends stay; for a closed line, whose first point is not
+// repeated, two points far apart stay.
 std::vector<Flat> simplified(const std::vector<Flat>& line, double tolerance);
 std::vector<Flat> simplified_loop(const std::vector<Flat>& loop, double tolerance);
 

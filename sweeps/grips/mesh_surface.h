@@ -7,8 +7,8 @@
 
 namespace wholehand {
 
-// The body's triangles in their order. Across edges that are no creases (core/meshes/edges.h) corners share a position and its normal, the
-// mean of the triangles' by their angles there; at creases, open edges and where more than two triangles meet positions are repeated.
+// The body's triangles in order. Across edges that are not creases (core/meshes/edges.h), corners share a position and its normal, the mean of the
+// triangles' weighted by their angles. At creases, open edges, and where more than two triangles meet, positions are repeated.
 SurfaceMesh mesh_surface(const MeshBody& body);
 
 }  // namespace wholehand

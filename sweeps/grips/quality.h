@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grasp quality as Ferrari and Canny (1992) measure it: how large the set of wrenches is that contacts exert together.
+// Grasp quality as defined by Ferrari and Canny (1992): the size of the set of wrenches that contacts exert together.
 #pragma once
 
 #include <array>

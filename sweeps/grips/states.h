@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the drawings and tables of a grip show: labels of its points, and which of its states.
+// Labels and states for the drawings and tables of a grip.
 #pragma once
 
 #include <array>
@@ -21,30 +21,29 @@ struct PointStyle {
 };
 extern const std::array<PointStyle, 3> POINT_STYLES;  // by PointState
 
-// A point is projected where its finger brought it to the glass, touching where it was there, free where it is not.
+// A point is projected if its finger brought it to the glass, touching if it was there already, free if it is not there.
 PointState point_state(const GripResult& result, int joint);
 
-// Throws Error (usage) where the grip is not feasible: there is no hand to draw. `option` is what asked for the drawing.
+// Throws Error (usage) if the grip is not feasible: there is no hand to draw. `option` asked for the drawing.
 void check_drawable(const GripReport& report, const std::string& option);
 
-// The first of the report's states that has liquid; null where none has.
+// The first of the report's states that has liquid; null if none has.
 const GripState* drawn_liquid(const GripReport& report);
 
-// A fill of the report in mL where fills are asked for as volumes, else as a share of the capacity: "250", "0.605".
+// A fill of the report, in mL if fills are requested as volumes, else as a share of the capacity: "250", "0.605".
 std::string fill_number(const GripReport& report, double fill);
 // The same in words: "250 mL", "fill 0.605", "empty".
 std::string fill_words(const GripReport& report, double fill);
 
-// A fill of a vessel as the scene gives it, for a page: "250 mL" of fills_ml, else "60.5 %" of what the vessel holds; "empty" without liquid. Number
-// and
-// unit stay in one line.
+// A fill of a vessel as the scene gives it, for a page: "250 mL" for fills_ml, else "60.5 %" of the vessel's capacity; "empty" without liquid. Number
+// and unit stay in one line.
 std::string fill_text(const Scene& scene, std::size_t vessel, double fill);
-// As a share, whatever the scene gives.
+// As a share, whichever the scene uses.
 std::string share_text(const Scene& scene, double fill);
 
-// The place in `holds` of the state that takes most effort: the report's worst one where that is listed and takes as much, to the
-// tolerance of efforts; else the first of those that take as much, or that no force holds, if there are any. A state whose effort is NaN
-// is passed over. Nothing where no other is.
+// The index in `holds` of the state with the largest effort. This is the report's worst state if it is listed and equally hard, to the tolerance of
+// efforts; else the first of the hardest states, or of those that no force holds, if there are any. States with NaN efforts are skipped. Nothing if
+// no other state exists.
 std::optional<std::size_t> hardest_state(const GripReport& report);
 
 }  // namespace wholehand

@@ -11,7 +11,7 @@ namespace wholehand {
 
 struct SurfaceMesh {
   std::vector<Triple> positions;
-  std::vector<Triple> normals;           // unit, one a position; positions are repeated where the surface has an edge
+  std::vector<Triple> normals;           // unit, one per position; positions are repeated if the surface has an edge
   std::vector<std::uint32_t> triangles;  // three positions each
 };
 

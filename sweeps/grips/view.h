@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The views of a grip's line drawing, and how numbers and places are written in it.
+// The views of a grip's line drawing, and the format of its numbers and positions.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace wholehand {
 
-// An orthographic view: unit vectors of the vessel frame, and where its origin lies on the sheet, mm to the right and mm down.
+// An orthographic view: unit vectors of the vessel frame, and its origin's place on the sheet, mm to the right and mm down.
 struct DrawnView {
   const char* name;
   Triple right, up, toward;
   Flat origin{};
-  std::shared_ptr<const MeshView> mesh;  // of a vessel that is one
+  std::shared_ptr<const MeshView> mesh;  // of a vessel that is a body of revolution
 
   double along(const Triple& axis, const Triple& p) const { return 1e3 * dot(axis, p); }
   double depth(const Triple& p) const { return along(toward, p); }  // mm, larger is nearer

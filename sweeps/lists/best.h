@@ -14,7 +14,7 @@
 
 namespace wholehand {
 
-// How the table of best_csv begins.
+// The first characters of best_csv's table.
 inline constexpr std::string_view BEST_CSV_START = "vessel,rank,height_mm,";
 
 // Efforts of the whole hand over all fills and tilts (docs/method.md, 10).
@@ -32,7 +32,7 @@ struct RobustScore {
   double share = mean;  // of the deviations that are feasible, plausible and held
 };
 
-// One of the best grips with its figures. Forces and tilts are the worst over all fills; NaN where the scene has no tilts.
+// One of the best grips with its figures. Forces and tilts are the worst over all fills; NaN if the scene has no tilts.
 struct BestGrip {
   Candidate candidate;
   GripInput grip;
@@ -48,46 +48,45 @@ struct BestGrip {
   double peak_force = 0;                                          // largest feedback force, N
   double peak_tilt = 0;                                           // of it, rad
   double largest_hold = 0;                                        // of each of two tips, N, may be infinite
-  double safe_tilt = 0;                                           // smallest over the fills, rad; NaN where a fill has none
-  bool is_safe_to_end = false;  // at every fill it is the last tilt that counts: more was not asked
+  double safe_tilt = 0;                                           // smallest over the fills, rad; NaN if a fill has none
+  bool is_safe_to_end = false;  // at every fill it is the last counted tilt, so the limit is unknown
   GripEfforts efforts;          // NaN in a scene without efforts
-  GripInput refined{};          // the best place near the grip (sweeps/lists/refine.h), where there is a score of it
+  GripInput refined{};          // the best place near the grip (sweeps/lists/refine.h), if it has a score
   double refined_score = std::numeric_limits<double>::quiet_NaN();
   RobustScore robust{};  // NaN in a scene without [robust]
 };
 
-// A candidate of the vessel at its place; nothing else is known of it.
+// A candidate of the vessel, with only its place known.
 BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candidate);
 
-// FIELD_* that a BestGrip is read from.
+// FIELD_* from which a BestGrip is read.
 std::vector<int> best_fields(const Scene& scene);
 
-// Evaluates the candidates of a vessel once more: a sweep need not have kept all their figures. The backend must keep
-// best_fields(). Throws Error (failure) where it delivers fewer.
+// Evaluates the candidates of a vessel again, because a sweep need not have kept all their figures. The backend must keep best_fields(). Throws Error
+// (failure) if it delivers fewer.
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
                                     const std::vector<Candidate>& candidates);
 
-// Sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of each.
-// With efforts it sets these too, and the hold force follows from the effort of the tips at the grip's gap and hand scale, which are set:
-// it does not read FIELD_LARGEST_HOLD then.
-// `last_tilts` are those of the vessel (core/counted_tilts.h).
+// Sets forces and tilts to the worst over the fills, from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of each. With
+// efforts it sets these too, and computes the hold force from the effort of the tips at the grip's gap and hand scale, which must be set, instead of
+// FIELD_LARGEST_HOLD. `last_tilts` are the vessel's (core/counted_tilts.h).
 void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& last_tilts,
                const std::function<double(int field, int fill)>& value);
 
-// Which sweep a list is of: the name of its result without the folder, and its sweep_id (sweeps/result/grip_lists.h).
+// The sweep of a list: the name of its result without the folder, and its sweep_id (sweeps/result/grip_lists.h).
 struct ListOrigin {
   std::string result, sweep;
 };
 
-// The file NAME.best.csv and those of `wholehand rank`: a row a grip, units in the column names; at the end the grip's number in the
-// sweep, the result and the sweep, by which the grips are found again. The lists are those of each vessel and hand scale (GripLists).
+// The file NAME.best.csv and those of `wholehand rank`: one row per grip, with units in the column names. At the end, the grip's number in the sweep,
+// the result and the sweep identify the grip. The lists are those of each vessel and hand scale (GripLists).
 std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
                      const ListOrigin& origin);
 // The first line of a CSV list, and the line of a grip of a vessel.
 std::string best_csv_head(const Scene& scene);
 std::string best_csv_row(const Scene& scene, const std::string& vessel, const BestGrip& best, const ListOrigin& origin);
 
-// By what a list is ranked: the largest score, the largest robust scores (sweeps/lists/robust.h), the least worst_effort, or the largest push.
+// The criterion of a list: the largest score, the largest robust scores (sweeps/lists/robust.h), the least worst_effort, or the largest push.
 enum class RankBy { score, robust, worst_effort, push };
 // The order of a sweep's lists: `robust` in a scene with [robust], else `score`.
 RankBy usual_order(const Scene& scene);
@@ -97,12 +96,12 @@ struct ListView {
   std::size_t rows = 5;  // at most
   bool is_wide = false;  // all columns, however wide the lines get
   RankBy by = RankBy::score;
-  double score_tolerance = 0;             // so near do two scores count as equal (core/tolerances.h)
-  std::vector<std::string> results = {};  // of a list of several results, whose each grip is; else empty
+  double score_tolerance = 0;             // scores this close count as equal (core/tolerances.h)
+  std::vector<std::string> results = {};  // for a list of several results: each grip's result; else empty
 };
 
-// The table of one list for a terminal, with only the axes that vary. Unless it is wide, it has ten columns at most, in less than 100 letters: what
-// the list is ranked by, the axes, and of the rest what there is room for.
+// The table of one list for a terminal, with only the axes that vary. Unless it is wide, it has at most ten columns in less than 100 characters: the
+// list's criterion, the axes, and as much of the rest as fits.
 std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, const ListView& view);
 
 }  // namespace wholehand

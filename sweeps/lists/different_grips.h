@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grips that are not one another's twins: a list that takes a grip only where its hand is somewhere else than every hand before.
+// Filters similar grips: a list takes a grip only if its hand differs from every earlier hand.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace wholehand {
 
-// Whether some joint of one posed hand is more than `apart` (m) away from the same joint of the other. A grip without a hand,
-// infeasible on the core, differs from every other. With `apart` 0 any two grips differ.
+// Whether some joint of one posed hand is more than `apart` (m) away from the same joint of the other. A grip without a hand, infeasible on the core,
+// differs from every other. With `apart` 0 any two grips differ.
 bool are_different(const std::optional<PosedHand>& a, const std::optional<PosedHand>& b, double apart);
 
-// The first `size` grips of those offered that differ from every grip before. They are offered in the order of is_better.
+// The first `size` of the offered grips that differ from every earlier one. Offer them in the order of is_better.
 class DifferentGrips {
  public:
   DifferentGrips(std::size_t size, double apart) : size_(size), apart_(apart) {}
@@ -35,7 +35,7 @@ class DifferentGrips {
   std::size_t size_;
   double apart_;
   std::vector<Candidate> chosen_;
-  // By the cell in which one of their joints lies: hands that are near have cells side by side.
+  // Keyed by the cell of one of their joints: similar hands have neighboring cells.
   std::map<Cell, std::vector<PosedHand>> hands_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The best grips of a vessel while a sweep runs, a list for each hand scale.
+// The best grips of a vessel during a sweep, one list for each hand scale.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,15 @@ void add_eligible(const PlaneChunk& chunk, const FieldSet& fields, std::vector<C
 
 class HandLists {
  public:
-  // The `size` best of each of the plan's hand scales; begins with those of `candidates`, in any order. The plan must outlive the object.
+  // The `size` best for each of the plan's hand scales; starts with `candidates`, in any order. The plan must outlive the object.
   HandLists(const Plan& plan, std::size_t size, const std::vector<Candidate>& candidates);
 
-  // The eligible grips of a chunk, whose score and status are kept; and single grips.
+  // Adds the eligible grips of a chunk whose score and status are kept; and single grips.
   void offer(const PlaneChunk& chunk, const FieldSet& fields);
   void offer(const std::vector<Candidate>& candidates);
-  bool takes(const Candidate& candidate) const;  // whether it would get in
+  bool takes(const Candidate& candidate) const;  // whether it would be accepted
 
-  double least() const;  // the score below which none gets into any list
+  double least() const;  // no list accepts lower scores
 
   std::vector<Candidate> sorted(std::size_t hand_scale) const { return lists_[hand_scale].sorted(); }  // the best first
   std::vector<Candidate> all() const;                                                                  // one list after the other

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The best grips of a vessel that differ from one another, chosen in passes over all of its grips.
+// Chooses the best grips of a vessel that differ from one another, in passes over all of its grips.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace wholehand {
 
-// What is known of a list between two passes.
+// The state of a list between two passes.
 struct ListProgress {
   std::vector<Candidate> chosen;     // the best first
   std::optional<Candidate> decided;  // every grip up to this one, in order, is chosen or near a chosen one; absent: none is decided
@@ -46,23 +46,23 @@ class ListChooser {
  public:
   using Hands = std::vector<std::optional<PosedHand>>;
 
-  // The lists of each hand scale of a vessel. `core` may be null where apart is 0. `progress`: of a chooser that goes on; empty:
-  // nothing is known. Plan and core must outlive the object.
+  // The lists of each hand scale of a vessel. `core` may be null if apart is 0. `progress`: of a chooser that continues; empty: nothing is known.
+  // Plan and core must outlive the object.
   ListChooser(const Plan& plan, const Evaluator* core, std::size_t vessel, const ListRequest& request,
               std::vector<ListProgress> progress = {});
 
-  // Feasible, plausible grips, in any order, each once a pass.
+  // Takes feasible, plausible grips, in any order, each once per pass.
   void offer(const std::vector<Candidate>& grips);
-  // The grips offered in this pass that may still be chosen: what another chooser with the same progress needs.
+  // The grips offered in this pass that may still be chosen, for another chooser with the same progress.
   std::vector<Candidate> open_grips() const;
-  // What another chooser with the same progress has found open in this pass: kept without checking its hands.
+  // Takes what another chooser with the same progress found open in this pass, without checking its hands.
   void add_open(const std::vector<Candidate>& grips);
-  // After all grips of the vessel. `is_complete` says whether another pass is needed. `pose`: finds the hands of some grips, in
-  // their order, if not this process alone.
+  // Call after all grips of the vessel. `is_complete` says whether another pass is needed. `pose`: finds the hands of some grips, in their order, if
+  // other processes help.
   using PoseHands = std::function<Hands(const std::vector<Candidate>& grips)>;
   void end_pass(const PoseHands& pose = {});
 
-  // The hands of grips of the vessel, by the core; none where a grip has none.
+  // The hands of grips of the vessel, by the core; none for a grip without a hand.
   Hands hands_of(const std::vector<Candidate>& grips) const;
 
   bool is_complete() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Notes on likely mistakes in a scene about what its vessels hold.
+// Notes on likely mistakes in a scene's cavities.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace wholehand {
 
-// A line for each vessel whose cavity narrows below 10 mm of radius and widens again beneath, with how much lies there. Throws Error
-// (usage) for vessels that cannot be made ready.
+// A line for each vessel whose cavity narrows below 10 mm of radius and widens again beneath, with the volume there. Throws Error (usage) for vessels
+// that cannot be prepared.
 std::vector<std::string> cavity_notes(const Scene& scene);
 
 // The same on stderr, a line each.

@@ -19,7 +19,7 @@ bool is_searched(const Plan& plan, int place) {
   return plan.axes()[place].kind != AxisKind::number;
 }
 
-// How near to an end of the axis a grip lies at it.
+// The distance from an end of the axis within which a grip counts as at it.
 double margin_of(const Plan& plan, const PlanAxis& axis) {
   if (axis.kind != AxisKind::range) return 0;
   int searched = 0;
@@ -29,7 +29,7 @@ double margin_of(const Plan& plan, const PlanAxis& axis) {
   return 0.5 * (axis.high - axis.low) / (values - 1);
 }
 
-// Whether the values of an angle go all the way round: the way from the last on to the first is no longer than between two others.
+// Whether the values of an angle go all the way round: the step from the last to the first is no longer than between two others.
 bool is_round(const PlanAxis& axis) {
   const double rest = 2 * PI - (axis.high - axis.low);
   if (axis.kind == AxisKind::range) return rest <= ROUNDING;
@@ -40,7 +40,7 @@ bool is_round(const PlanAxis& axis) {
   return rest <= longest + ROUNDING;
 }
 
-// Whether the axis cannot go on beyond an end, by `place`; heights as the axis has them.
+// Whether the axis cannot continue beyond an end, by `place`; heights as on the axis.
 bool is_limit(const Scene& scene, const Plan& plan, std::size_t vessel, int place, double end) {
   if (place == PLACE_OBLIQUITY) return std::abs(end) >= PI / 2 - ROUNDING;
   if (place != PLACE_HEIGHT) return false;

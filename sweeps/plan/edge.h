@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a search found its best at an end of what it was given to search.
+// Detects that a search found its best at an end of its range.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ namespace wholehand {
 // The key of a scene's [grips] that an axis comes from: "roll_deg", "height_fraction".
 std::string axis_key(const PlanAxis& axis);
 
-// Keys of the axes at whose smallest or largest value the best of a vessel's grips lies: there the range may cut off better ones. `best`:
-// the best first. Where several grips are equally good, all must lie at ends of the axis. Sobol points lie at an end where the nearest
-// value of a grid of as many grips would. Not named: an axis of one value, full turns of azimuth and roll, azimuth about bodies of
-// revolution, the vessel's ends (height at lowest point or mouth, obliquity at 90 degrees), and hand_scale, which says whose hand it is.
+// Keys of the axes at whose smallest or largest value the best of a vessel's grips lies, where the range may cut off better ones. `best`: the best
+// first. If several grips are equally good, all must lie at ends of the axis. A Sobol point lies at an end if the nearest value of a grid of as many
+// grips would. Not named: an axis of one value, full turns of azimuth and roll, azimuth for bodies of revolution, the vessel's ends (height at lowest
+// point or mouth, obliquity at 90 degrees), and hand_scale, which belongs to the person.
 std::vector<std::string> edge_axes(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<Candidate>& best);
 
-// "the best lies on the edge of roll_deg; widen it?"; empty where no axis is named.
+// "the best lies on the edge of roll_deg; widen it?"; empty if no axis is named.
 std::string edge_line(const std::vector<std::string>& axes);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which grips a sweep evaluates: a scene's axes as numbered grips, any of them at once, from any thread.
+// The grips of a sweep: a scene's axes as numbered grips, accessible in any order from any thread.
 #pragma once
 
 #include <array>
@@ -15,15 +15,14 @@
 
 namespace wholehand {
 
-constexpr double LARGEST_SWEEP = 1e11;        // grips of all vessels that one sweep takes
-constexpr std::size_t MOST_HAND_SCALES = 64;  // with a list of best grips each; more are a range, and have one list
+constexpr double LARGEST_SWEEP = 1e11;        // largest number of grips of all vessels in one sweep
+constexpr std::size_t MOST_HAND_SCALES = 64;  // with a list of best grips each; more count as a range with one list
 
-// Places of the axes, in the order in which grips are numbered and the result file stores them, the slowest first. Height is the fastest:
-// a device evaluates neighbors together, and of all axes height changes the least in how a finger moves.
+// Positions of the axes, slowest first, in the order in which grips are numbered and the result file stores them. Height is the fastest: a device
+// evaluates neighbors together, and height changes a finger's motion least.
 enum PlanPlace : int { PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_ROLL, PLACE_OFFSET, PLACE_HAND_SCALE, PLACE_HEIGHT };
 
-// What the grips have along an axis: one value; those of a list; the equal steps of a range; or, where Sobol points fill a range, any value
-// between its ends.
+// What the grips have along an axis: one value; a list's; the equal steps of a range; or, if Sobol points fill a range, any value between its ends.
 enum class AxisKind { number, list, steps, range };
 
 // One axis of the grips.
@@ -35,23 +34,22 @@ struct PlanAxis {
   std::string units;  // of its values: "m", "rad" or "1"
   std::string long_name;
   int axis = 0;                // AXIS_* of shaders/layout.h, and the Sobol dimension that feeds it
-  std::vector<double> values;  // SI; of a range its ends at least
+  std::vector<double> values;  // SI; for a range at least its ends
   AxisKind kind = AxisKind::number;
   double low = 0, high = 0;  // the least and the largest value
 };
 
-// What a scene asks for. Reals, since the products may pass any integer.
+// The size of a scene's request. Reals, because the products may exceed any integer.
 struct SweepSize {
   double grips = 0;   // of all vessels, stored
-  double states = 0;  // grips x fills x tilts (grips alone where there are no tilts)
+  double states = 0;  // grips x fills x tilts (just grips without tilts)
   double bytes = 0;   // of the results
 };
 
-// `bytes_per_grip`: what the result file stores for one grip.
+// `bytes_per_grip`: bytes that the result file stores for one grip.
 SweepSize sweep_size(const Scene& scene, double bytes_per_grip);
 
-// Throws Error with the sizes: (usage) where a sweep is larger than LARGEST_SWEEP grips, (failure) where its results are larger than
-// `free_bytes`.
+// Throws Error with the sizes: (usage) the sweep exceeds LARGEST_SWEEP grips; (failure) its results exceed `free_bytes`.
 void check_sweep_size(const Scene& scene, const SweepSize& size, double free_bytes);
 
 // A grid numbers its grips with the axes azimuth, obliquity, roll, offset, hand scale, height as digits, azimuth the slowest.
@@ -64,7 +62,7 @@ void check_sweep_size(const Scene& scene, const SweepSize& size, double free_byt
 // and the result file repeats them.
 class Plan {
  public:
-  // Throws Error (usage) where the grips pass LARGEST_SWEEP, or the Sobol points SOBOL_LARGEST_COUNT.
+  // Throws Error (usage) if the grips exceed LARGEST_SWEEP, or the Sobol points SOBOL_LARGEST_COUNT.
   Plan(const Scene& scene, bool keeps_vectors);
 
   bool is_sobol() const { return sobol_; }
@@ -77,11 +75,11 @@ class Plan {
   std::uint64_t stored_grips() const { return grips_ * copies_; }
   bool is_symmetric() const { return symmetric_; }  // every vessel is a body of revolution, in mass too: azimuth changes nothing
 
-  // The hands whose grips are not to be weighed against each other: the values of hand_scale, up to MOST_HAND_SCALES of them. A single one
-  // where the scene has one value, a continuous range, or more. Best grips are listed for each vessel and each of these.
+  // The hands whose grips must not compete: the values of hand_scale, up to MOST_HAND_SCALES. Only one if the scene has one value, a continuous
+  // range, or more. Best grips are listed for each vessel and each of these.
   std::size_t hand_scales() const { return scale_order_.empty() ? 1 : scale_order_.size(); }
   double hand_scale(std::size_t place) const { return axes_[PLACE_HAND_SCALE].values[place]; }  // where there are several
-  // Places of the hand scales of grips first .. first + count - 1; 0 where there is one. Thread-safe.
+  // Indices of the hand scales of grips first .. first + count - 1; 0 if there is only one. Thread-safe.
   void hand_scales_of(std::uint64_t first, std::size_t count, std::size_t* out) const;
   std::size_t hand_scale_of(std::uint64_t grip) const;
 
@@ -92,12 +90,12 @@ class Plan {
   // A vessel's height of a grip in m from the value of the height's axis.
   double height(std::size_t vessel, double value) const;
 
-  // Values of one axis (index into axes()) at grips first .. first + count - 1, before a height fraction meets a vessel.
+  // Values of one axis (index into axes()) at grips first .. first + count - 1, before a height fraction is applied to a vessel.
   void coordinates(int axis, std::uint64_t first, std::size_t count, double* out) const;
 
  private:
   double axis_value(const PlanAxis& axis, const SobolPoint& point) const;
-  // Lowest point of the vessel and height above it where heights are fractions, else 0 and 1.
+  // Lowest point of the vessel and height above it if heights are fractions, else 0 and 1.
   std::array<double, 2> height_span(std::size_t vessel) const;
 
   std::array<PlanAxis, 6> axes_;
@@ -108,7 +106,7 @@ class Plan {
   Sobol sequence_;
   std::uint64_t grips_ = 0;
   std::uint64_t copies_ = 1;
-  std::vector<std::pair<double, std::size_t>> scale_order_;  // hand scales, ascending, and their places; empty: a single one
+  std::vector<std::pair<double, std::size_t>> scale_order_;  // hand scales, ascending, and their places; empty: only one
   std::vector<std::array<double, 2>> vessel_spans_;          // y of the lowest point and height above it, m
 };
 

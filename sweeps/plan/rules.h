@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rules by which a sweep scores grips and lists them: scores of two sweeps compare only where these are the same.
+// The rules by which a sweep scores and lists grips. Scores of two sweeps are comparable only if these are equal.
 #pragma once
 
 #include <array>
@@ -27,13 +27,13 @@ enum RulePlace : std::size_t {
   RULE_COUNT
 };
 
-// The rules of a scene by RulePlace, in words: a result has them in its attribute `rules`.
+// The rules of a scene by RulePlace, in words; a result stores them in its attribute `rules`.
 std::array<Rule, RULE_COUNT> scene_rules(const Scene& scene);
 
 // Their names, with commas between.
 std::string rule_names();
 
-// Which of them two scenes share, whether or not the words show it.
+// Which of them two scenes share, even if the words do not show it.
 std::array<bool, RULE_COUNT> shared_rules(const Scene& a, const Scene& b);
 
 // Weights of the score's terms, without those of weight 0: "depth 0.69, force 0.13".

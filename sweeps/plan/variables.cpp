@@ -109,7 +109,7 @@ Variable joint_mask(const char* name, const char* long_name, int field) {
           true, Need::nothing, word_itself, false,      JOINT_COUNT,      0};
 }
 
-// A group of the catalogue: kept by default or on request, and what it needs. A field of its own says both by itself.
+// A group of the catalogue: kept by default or on request, and its requirements. A field of its own says both by itself.
 void add(std::vector<Variable>& catalogue, bool by_default, Need need, std::vector<Variable> group) {
   for (Variable& variable : group) {
     if (variable.type != NumberType::real || variable.field == FIELD_TERMS) {
@@ -129,7 +129,7 @@ void add_other_fields(std::vector<Variable>& catalogue) {
   }
 }
 
-// In one piece however long, because it is one table: a row a variable, in the order of the result file.
+// In one piece however long, because it is one table: one row per variable, in the order of the result file.
 std::vector<Variable> make_catalogue() {
   std::vector<Variable> all;
   add(all, DEFAULT, Need::nothing,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a result file can hold for every grip: the catalogue of variables, and a scene's choice from it.
+// The catalogue of variables that a result file can hold for every grip, and a scene's choice from it.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ namespace wholehand {
 
 enum class NumberType { real, byte, word };  // real: float or double with the backend's precision; signed 8 and 32 bits
 
-// What a scene must have for a variable to exist.
+// What a scene needs for a variable to exist.
 enum class Need { nothing, tilts, projection, articulated, table, between, strength, arm };
 
-inline constexpr const char* YES_NO = "1: yes, 0: no";  // meaning of the bytes that are truths
+inline constexpr const char* YES_NO = "1: yes, 0: no";  // meaning of bytes that are true or false
 
-constexpr int MISSING = -1;  // of bytes and words: what an infeasible grip lacks (reals: NaN; masks: no bit)
+constexpr int MISSING = -1;  // for bytes and words: the value for an infeasible grip (reals: NaN; masks: no bit)
 
 // One variable of the result file. Its dimensions are (vessel, `dims`.., the grip's axes).
 struct Variable {
@@ -39,12 +39,12 @@ struct Variable {
   int bits = 0;         // of a mask: one for each finger or joint; 0: no mask
   std::int32_t missing = MISSING;
 
-  // Whether one of its values stands for a missing one (_FillValue). Readers like xarray make reals of whole numbers that have one, and
-  // masks are for bit operations: theirs is a mask without bits.
+  // Whether one value stands for a missing one (_FillValue). Readers like xarray convert integers with a _FillValue to reals, but masks are for bit
+  // operations, so they use a mask without bits instead.
   bool has_missing() const { return type == NumberType::real || (bits == 0 && !always); }
 };
 
-// A variable's comment in a result of the scene, with what leaving out tilts does to it. May be empty.
+// A variable's comment in a result of the scene, including the effect of tilts that are left out. May be empty.
 std::string variable_comment(const Variable& variable, const Scene& scene);
 
 // Every variable there is, in the order of the result file.
@@ -53,18 +53,17 @@ std::span<const Variable> variable_catalogue();
 // Planes of a variable in a scene, the product of its dims: 6 terms are 6 variables of 1 plane each.
 std::size_t variable_planes(const Variable& variable, const Scene& scene);
 
-// The variables that `[output] keep` names, or the default ones that the scene can have and those of `also`; in the catalogue's order,
-// each once.
-// Throws Error (usage) for a name that is unknown (with the known ones) or needs what the scene lacks (with what that is).
+// The variables that `[output] keep` names, or the default ones that the scene can have plus those of `also`; in the catalogue's order, each once.
+// Throws Error (usage) for a name that is unknown (listing the known ones) or needs what the scene lacks (naming it).
 std::vector<const Variable*> choose_variables(const Scene& scene);
 
-// The variables of these names, in their order. `where` begins the line of an error; throws as choose_variables.
+// The variables of these names, in order. `where` begins the line of an error; throws as choose_variables.
 std::vector<const Variable*> named_variables(const Scene& scene, std::span<const std::string> names, const std::string& where);
 
 // What the scene lacks for a variable, as in "[tilts]"; null: nothing.
 const char* missing_need(const Variable& variable, const Scene& scene);
 
-// FIELD_* that they come from, ascending, each once; with the status (it says which grips are feasible) unless there are none.
+// FIELD_* from which they come, ascending, each once; with the status (which says whether a grip is feasible) unless there are none.
 std::vector<int> variable_fields(const std::vector<const Variable*>& variables);
 
 // Whether one of them is a vector of the vessel frame, which turns with the azimuth.

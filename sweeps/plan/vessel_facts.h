@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The facts on the vessels themselves in a result file.
+// The grip-independent facts of vessels in a result file.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// What is known of a vessel whatever the grip.
+// Facts of a vessel that no grip changes.
 struct VesselFacts {
   double capacity = 0;               // m3, upright to the brim
   double empty_mass = 0;             // kg
@@ -18,8 +18,8 @@ struct VesselFacts {
   std::vector<LiquidResult> liquid;  // fill-major over the tilts; empty without liquid or tilts
 };
 
-// Facts of every vessel: the table of liquid from the backend, the rest from the core. Throws Error (failure)
-// where the table is not of the scene's fills and tilts.
+// Facts of every vessel: the table of liquid from the backend, the rest from the core. Throws Error (failure) if the table does not match the scene's
+// fills and tilts.
 std::vector<VesselFacts> vessel_facts(const Scene& scene, Backend& backend, const Evaluator& evaluator);
 
 }  // namespace wholehand

@@ -46,13 +46,13 @@ FindVariable find_in(const SweepResult& result) {
   return [&result](const std::string& name) { return result.find(name); };
 }
 
-// Whether a sweep keeps the variable where its scene does not say otherwise.
+// Whether a sweep keeps the variable by default.
 bool is_usual(const std::string& name) {
   return std::ranges::any_of(variable_catalogue(),
                              [&](const Variable& variable) { return name == variable.name && variable.by_default; });
 }
 
-// The variables of these names; throws for all that are not there. `who` lacks them.
+// The variables of these names; throws for all that are missing. `who` lacks them.
 std::vector<const Variable*> needed(const FindVariable& find, const std::vector<std::string>& names, const std::string& source) {
   std::vector<const Variable*> variables;
   std::vector<std::string> missing;
@@ -80,14 +80,14 @@ std::vector<std::string> eligible_names(const Scene& scene) {
   return has_effort(scene) ? std::vector<std::string>{"plausible", "not_held"} : std::vector<std::string>{"plausible"};
 }
 
-// What a list is in the order of, beside the scores.
+// The criterion of a list, besides the scores.
 std::vector<std::string> key_names(RankBy by) {
   if (by == RankBy::worst_effort) return {"worst_effort"};
   if (by == RankBy::push) return {"push"};
   return {};
 }
 
-// What scores by these weights are made of: the sweep's own where the weights are, else its terms.
+// The inputs of scores by these weights: the sweep's own scores if the weights are its own, else its terms.
 std::vector<std::string> score_names(const std::array<double, 6>& weights, const Scene& scene, const FindVariable& find) {
   std::vector<std::string> names;
   for (std::size_t term = 0; term < weights.size(); ++term)
@@ -97,15 +97,15 @@ std::vector<std::string> score_names(const std::array<double, 6>& weights, const
   return names;
 }
 
-// Values that a condition may name beside the variables: numbers of sources from variable_catalogue().size() on, by PLACE_*; then the height in m.
+// Values that a condition may name besides the variables: numbers of sources from variable_catalogue().size() on, by PLACE_*; then the height in m.
 enum : std::size_t { SOURCE_AXIS = 0, SOURCE_HEIGHT = 6 };
 
 bool is_over(const Variable& variable, const char* dim) {
   return std::any_of(variable.dims.begin(), variable.dims.end(), [dim](const char* name) { return std::strcmp(name, dim) == 0; });
 }
 
-// How a sweep comes to have a variable: `keep` lists all variables, and also adds to the usual ones. Names related variables of the
-// file, as worst_effort for effort.
+// How to make a sweep keep a variable: `keep` lists all variables, and also adds to the usual ones. Names related variables of the file, such as
+// worst_effort for effort.
 std::string remedy_for(const Variable& variable, const SweepResult& result, const Scene& scene) {
   std::vector<std::string> related;
   for (const Variable& other : variable_catalogue())
@@ -135,7 +135,7 @@ void add_names(std::vector<WhereName>& names, const WhereName& name) {
   names.back().unit = name.units == "m" ? WhereUnit::mm : WhereUnit::deg;
 }
 
-// Scores of a block of grips: from the file where the weights are the sweep's own.
+// Scores of a block of grips: from the file if the weights are the sweep's own.
 class Scores {
  public:
   Scores(const SweepResult& result, const Scene& scene, const std::string& weights)
@@ -270,7 +270,7 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
     for (int plane = 0; plane < field_planes(field, scene); ++plane)
       of_states[field].push_back(pick(field_row(field).variable, static_cast<std::size_t>(plane)));
   }
-  // where a mesh is not there, which tilts count is not known: then all of them are the end
+  // if a mesh is missing, the counted tilts are unknown: then all of them are the end
   const VesselData& data = scene.vessels[vessel];
   const bool is_known = !data.mesh || data.mesh->body;
   const std::vector<double> last =
@@ -320,7 +320,7 @@ void set_robust(const SweepResult& result, const Plan& plan, std::size_t list, s
       }
 }
 
-// What the lists are in the order of, of a block of grips: the larger, the better.
+// The criterion of the lists, for a block of grips: larger is better.
 class RankKeys {
  public:
   RankKeys(const SweepResult& result, Scores& scores, RankBy by) : result_(result), scores_(scores) {
@@ -343,7 +343,7 @@ class RankKeys {
   double sign_ = 1;
 };
 
-// The scene with these weights, as kernels take them; and by what a score of theirs is multiplied to be one of read_weights.
+// The scene with these weights, as kernels use them, and the factor from their score to one of read_weights.
 Scene with_weights(const Scene& scene, const std::array<double, 6>& weights, double& factor) {
   Scene other = scene;
   other.score = {weights[0], weights[1], weights[2], weights[3], weights[4], weights[5]};
@@ -364,8 +364,8 @@ void rank_by_robust(const Scene& scene, const Plan& plan, const std::array<doubl
     }
 }
 
-// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass. `least_bad`: those of lists of which none
-// holds, instead of those that hold.
+// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass. `least_bad`: those of lists without a holding
+// grip, instead of those that hold.
 void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, RankKeys& keys,
                  bool least_bad, const Where* where, ListChooser& chooser, Ranking& ranking, bool is_first_pass) {
   const Variable &plausible = *result.find("plausible"), *not_held = result.find("not_held"),

@@ -18,10 +18,10 @@
 namespace wholehand {
 namespace {
 
-// Rounded up at the third digit behind the point, so that what is asked for is enough.
+// Rounded up at the third decimal, so that the stated value suffices.
 std::string enough(double value) { return fixed_text(std::ceil(value * 1e3 - 1e-9) / 1e3, 3); }
 
-// "height 40.0 mm, roll -60.0 deg": what of the grip differs from grip to grip.
+// "height 40.0 mm, roll -60.0 deg": the coordinates that vary between grips.
 std::string place_of(const Plan& plan, const GripInput& grip) {
   std::vector<std::string> parts;
   const auto add = [&](int place, const char* name, double value, const char* unit) {

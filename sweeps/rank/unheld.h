@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where no grip of a vessel holds: what fails, how far the grip that is nearest to it is from holding, and what would make it hold.
+// For a vessel that no grip holds: what fails, how far the nearest grip is from holding, and what would make it hold.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,20 @@
 
 namespace wholehand {
 
-// What a grip that does not hold would take, by the core in double precision. A fill is in the order of the scene's, a tilt in rad.
+// What an unheld grip would need, by the core in double precision. A fill is in the order of the scene's, a tilt in rad.
 struct Unheld {
-  double effort = 0;           // the worst; infinite where no force holds
+  double effort = 0;           // the worst; infinite if no force holds
   double friction_needed = 0;  // infinite: no friction up to 10 holds all states
-  std::optional<double> fill;  // up to this one every tilt that counts holds,
-  std::optional<double> tilt;  // and up to this one every fill; absent: not even at the first
+  std::optional<double> fill;  // every counted tilt holds up to this fill,
+  std::optional<double> tilt;  // and every fill up to this tilt; absent: not even at the first
 };
 
 // `scene` has [strength] and tilts; the grip is plausible.
 Unheld what_would_hold(const Evaluator& core, const Scene& scene, std::size_t vessel, const GripInput& grip);
 
-// A nearest grip that no force holds has the least effort of many, all infinite. Then the plausible grip that needs the least friction, by the core:
-// among all grips, or 8,192 to 16,384 evenly spaced ones. `nearest` where its effort is finite or its friction is known, and where no friction is
-// enough.
+// If no force holds the nearest grip, its effort is one of many infinite ones, and the choice is arbitrary. Then returns the plausible grip that
+// needs the least friction, by the core: among all grips, or 8,192 to 16,384 evenly spaced ones. Returns `nearest` if its effort is finite or its
+// friction is known, or if no friction is enough.
 LeastBad with_least_friction(const Evaluator& core, const Scene& scene, const Plan& plan, std::size_t vessel,
                              const LeastBad& nearest);
 

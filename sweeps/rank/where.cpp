@@ -131,7 +131,7 @@ class WhereParser {
  private:
   using Operation = Where::Operation;
 
-  // A condition, or one that may yet be a side of a comparison.
+  // A condition, or a value that may still become a side of a comparison.
   struct Part {
     int node = -1;  // -1: an operand
     Where::Operand operand;
@@ -324,7 +324,7 @@ class WhereParser {
     return masks.empty() ? "" : fmt::format(": {}", joined(masks, ", "));
   }
 
-  // Counts what is within each other, since each takes room on the stack.
+  // Counts the nesting, because each level takes stack.
   struct Depth {
     Depth(int& count, std::size_t column) : depth(count) {
       if (++depth > DEEPEST) refuse(column, fmt::format("more than {} nested parentheses", DEEPEST));

@@ -10,38 +10,38 @@
 namespace wholehand {
 
 enum class WhereKind { number, truth, mask };  // truth: 0 or 1; mask: bits of a whole number
-enum class WhereUnit { own, mm, deg };         // of the numbers that a name is compared with; own: those of the value
+enum class WhereUnit { own, mm, deg };         // of the numbers that a name is compared with; own: the value's unit
 
-// What a condition may name.
+// A name that a condition may use.
 struct WhereName {
   std::string name;   // with its unit, if that is not the value's own: "gap", "gap_mm"
   std::string units;  // of the value itself: "m"
   WhereKind kind = WhereKind::number;
   WhereUnit unit = WhereUnit::own;
-  std::string over;        // what several values of a grip are over ("fill"): then it must be in min() or max(); empty: one value
-  std::string refusal;     // why it cannot be asked for; empty: it can
+  std::string over;        // what a grip's several values range over ("fill"): then it must be in min() or max(); empty: one value
+  std::string refusal;     // why it is not available; empty: it is
   std::size_t source = 0;  // the caller's own number of the value
 };
 
-enum class WhereFold { none, least, largest };  // of several values; NaN where one of them is
+enum class WhereFold { none, least, largest };  // of several values; NaN if one of them is
 
-// A value that a condition needs of each grip.
+// A value that a condition needs for each grip.
 struct WhereValue {
   std::size_t source = 0;
   WhereFold fold = WhereFold::none;
   bool operator==(const WhereValue&) const = default;
 };
 
-// Grammar, from what binds last to what binds first: or; and; not; < <= > >= == != (two values, once); & (a mask and a whole number). A name of
-// kind truth or mask alone, or a masked one, is a condition too: not 0. Parentheses, min(name), max(name), numbers, inf.
-// A comparison with a value that does not exist (NaN) does not hold.
+// Grammar, from the weakest to the strongest binding: or; and; not; < <= > >= == != (two values, once); & (a mask and a whole number). A name of kind
+// truth or mask alone, or a masked one, is also a condition: not 0. Parentheses, min(name), max(name), numbers, inf. A comparison with a missing
+// value (NaN) is false.
 class Where {
  public:
   // All of the conditions `texts` (one at least). Throws Error (usage), "--where, column 7: ..": what is wrong there, and what is known.
   Where(const std::vector<std::string>& texts, const std::vector<WhereName>& names);
 
   const std::vector<WhereValue>& values() const { return values_; }        // each once
-  bool holds(const double* values) const { return holds(root_, values); }  // one of each of values(), in their own units
+  bool holds(const double* values) const { return holds(root_, values); }  // one for each of values(), in their own units
 
  private:
   friend class WhereParser;
@@ -49,7 +49,7 @@ class Where {
 
   // One side of a comparison.
   struct Operand {
-    int value = -1;  // place in values_; -1: the number
+    int value = -1;  // index in values_; -1: the number
     double number = 0;
     std::uint32_t mask = ~std::uint32_t{0};
     bool is_masked = false;

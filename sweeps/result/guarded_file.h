@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A NetCDF-4 file that is only read, and by a process of its own.
+// A NetCDF-4 file, read by a separate process.
 #pragma once
 
 #include <sys/types.h>
@@ -28,9 +28,8 @@ class GuardedFile {
     std::vector<std::size_t> shape;
   };
 
-  // Opens the file and reads its structure, the file's own attributes and a value at both ends of every variable of numbers. Throws Error: (usage)
-  // one
-  // line that begins with the path: it cannot be read, is no regular file, is damaged or no NetCDF-4; (failure) no process can be started.
+  // Opens the file and reads its structure, its own attributes and a value at both ends of every numeric variable. Throws Error: (usage) one line
+  // that begins with the path: it cannot be read, is not a regular file, is damaged or not NetCDF-4; (failure) no process can be started.
   explicit GuardedFile(const std::string& path);
   ~GuardedFile();
   GuardedFile(const GuardedFile&) = delete;
@@ -39,14 +38,14 @@ class GuardedFile {
   const std::string& path() const { return path_; }
   double bytes() const { return bytes_; }
 
-  // Null where the file does not have the variable.
+  // Null if the file does not have the variable.
   const Stored* find(const std::string& name) const;
-  // An attribute of the file, or what its variable CHECKSUMS holds (sweeps/result/result_checksums.h); nothing where it is not there or of another
+  // An attribute of the file, or the contents of its variable CHECKSUMS (sweeps/result/result_checksums.h); nothing if it is absent or of another
   // type.
   std::optional<std::string> text(const std::string& name) const;
   std::optional<double> number(const std::string& name) const;  // one NC_DOUBLE
 
-  // A block of a variable of numbers, row by row; numbers that no double has come as what NetCDF makes of them. Throws Error (usage).
+  // A block of a numeric variable, row by row; numbers outside a double's range come as NetCDF converts them. Throws Error (usage).
   void read(const Stored& variable, std::span<const std::size_t> start, std::span<const std::size_t> count, double* out) const;
 
  private:

@@ -26,7 +26,7 @@ constexpr std::size_t VALUES_A_SECOND = 1 << 23;  // of a processor, at least; m
 constexpr std::uint64_t MEMORY = 4ull << 30;      // bytes more than the process had
 constexpr int SAYS_TOO_MUCH = NC_EHDFERR;
 
-// What the process has used so far does not count.
+// Does not count what the process has used so far.
 void allow_one_answer(std::size_t values = 0) {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
@@ -50,7 +50,7 @@ void limit_memory() {
   setrlimit(RLIMIT_AS, &memory);
 }
 
-// The process keeps the socket and nothing else that it inherited: no lock, no port, no terminal to print to.
+// The process keeps only the socket of what it inherited: no lock, no port, no terminal to print to.
 void become_server(int socket) {
   dup2(socket, STDIN_FILENO);
   const int null = open("/dev/null", O_RDWR);
@@ -115,7 +115,7 @@ class Server {
     if (!send_all(socket_, &value, sizeof value)) _exit(0);
   }
 
-  // Everything that the file declares, and a try at the ends of each variable of numbers.
+  // Everything that the file declares, and a test read at both ends of each numeric variable.
   int declare(std::string& catalogue) {
     int count = 0, attributes = 0;
     int status = nc_inq(file_, nullptr, &count, &attributes, nullptr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The process behind a GuardedFile: it reads the file with the NetCDF library and answers over a socket.
+// The process behind a GuardedFile: reads the file with the NetCDF library and answers over a socket.
 #pragma once
 
 #include <array>
@@ -18,22 +18,21 @@ struct Request {
   std::array<std::uint64_t, MOST_DIMENSIONS> start{}, count{};
 };
 
-// Whether `status` leaves the values usable: numbers out of a double's range are there all the same.
+// Whether `status` leaves the values usable: numbers out of a double's range are delivered all the same.
 bool is_usable(int status);
 
-// Sends and takes all of it; false: the other end is gone, or said nothing for `seconds` (0: no matter how long).
+// Send and receive everything; false: the other end is gone, or was silent for `seconds` (0: no limit).
 bool send_all(int socket, const void* data, std::size_t size);
 bool take_all(int socket, void* data, std::size_t size, int seconds);
 
-// Opens the file and sends the status of that; if it is good, the catalogue: its size (uint64) and that many bytes. Then answers requests until the
-// other
-// end closes. For a child process alone: takes over its streams, limits and signals, and does not return.
+// Opens the file and sends the resulting status; if it is good, also the catalogue: its size (uint64) and that many bytes. Then answers requests
+// until the other end closes. Only for a child process: takes over its streams, limits and signals, and does not return.
 [[noreturn]] void serve(int socket, const std::string& name);
 
-// The catalogue: entries one after the other, each a kind and what CatalogueReader takes after it.
+// The catalogue: a sequence of entries, each a kind and the values that CatalogueReader reads after it.
 enum class Entry : std::uint32_t { variable, text, number };
 
-// Takes a catalogue apart. Throws std::runtime_error where it ends too early.
+// Parses a catalogue. Throws std::runtime_error if it ends too early.
 class CatalogueReader {
  public:
   explicit CatalogueReader(const std::string& bytes) : bytes_(bytes) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// HDF5 as results use it beside NetCDF: where values lie in the file.
+// HDF5 calls that results need beside NetCDF: where values lie in the file.
 #pragma once
 
 #include <hdf5/serial/hdf5.h>
@@ -24,8 +24,8 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t);
 };
 
-// Negative where it cannot be opened; nothing is printed about that, nor about what fails later. HDF5's own lock is not needed under the
-// result's, and not every file system has it.
+// Negative if the file cannot be opened. Prints nothing, now or at later failures. HDF5's own lock is unnecessary under the result's, and not every
+// file system supports it.
 inline hid_t open_hdf5(const std::string& path, unsigned mode) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a sweep is, kept beside its partial result file, so that an interrupted one goes on where it stood.
+// The progress of a sweep, kept beside its partial result file, so that an interrupted sweep can resume.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@
 
 namespace wholehand {
 
-// The plausible grip that is nearest to holding: the least worst effort, then the least friction needed, then the first grip.
+// The plausible grip nearest to holding: the least worst effort, then the least friction needed, then the first grip.
 struct LeastBad {
   static constexpr double ENDLESS = std::numeric_limits<double>::infinity();
 
-  double effort = ENDLESS, friction = ENDLESS;  // infinite where they are not known, too
+  double effort = ENDLESS, friction = ENDLESS;  // also infinite if unknown
   std::uint64_t grip = std::numeric_limits<std::uint64_t>::max();
 
   auto operator<=>(const LeastBad&) const = default;
@@ -37,14 +37,14 @@ struct GripCounts {
   std::uint64_t implausible = 0;             // of the feasible
   std::uint64_t antipodal = 0;
   std::uint64_t blocked = 0;  // with a blocked finger
-  // Parts of the implausible: a grip through the table may also have fingers in each other or be beyond the wrist, and then counts
-  // twice. All 0 where they were not distinguished.
+  // Parts of the implausible: a grip through the table may also have overlapping fingers or be beyond the wrist, and then counts twice. All 0 if they
+  // were not distinguished.
   std::uint64_t through_table = 0, self_overlap = 0, beyond_wrist = 0;
   std::uint64_t only_deep = 0;  // deep in the vessel, and none of the three
   std::uint64_t not_held = 0;   // of the plausible
-  std::uint64_t unjudged = 0;   // of the plausible: efforts that the lists do not need (RunRequest::least_score)
+  std::uint64_t unjudged = 0;   // of the plausible: efforts not needed for the lists (RunRequest::least_score)
   std::uint64_t at_gate = 0;    // of the plausible: their worst effort is within the tolerances of `check` of 1 (core/tolerances.h)
-  LeastBad least_bad;           // not known where worst efforts are not kept
+  LeastBad least_bad;           // unknown if worst efforts are not kept
 
   std::uint64_t plausible() const { return by_reason[0] - implausible; }
   bool none_holds() const { return not_held > 0 && not_held == plausible(); }
@@ -61,9 +61,9 @@ struct Stretch {
 // What is known of one vessel's first `done` grips.
 struct VesselProgress {
   std::uint64_t done = 0;
-  std::vector<Stretch> stretches;   // one after the other, of 0 to `done`; none where the file holds nothing of the grips
-  std::vector<Candidate> best;      // the best first; of a vessel whose lists are chosen, those that are listed
-  std::vector<ListProgress> lists;  // after the first pass over its grips, where lists take more (sweeps/lists/list_chooser.h)
+  std::vector<Stretch> stretches;   // consecutive, from 0 to `done`; none if the file holds nothing of the grips
+  std::vector<Candidate> best;      // the best first; if the vessel's lists are chosen in passes, the listed ones
+  std::vector<ListProgress> lists;  // after the first pass over its grips, if the lists take several (sweeps/lists/list_chooser.h)
   GripCounts counts;
   std::vector<double> heat_map;  // HeatMap::scores(); empty without one
 };
@@ -75,8 +75,8 @@ struct ShardMark {
   bool is_ended = false;  // whether only their grips are missing in the result file
 };
 
-// The state of a sweep at a moment when everything up to it is on the disk. `identity` says what must be the same in the sweep that
-// goes on: with it equal, the values are equal bit for bit.
+// The state of a sweep when everything up to it is on the disk. `identity` says what must be the same in the resumed sweep: if it is equal, the
+// values are equal bit for bit.
 struct SweepMark {
   std::map<std::string, std::string> identity;
   std::vector<VesselProgress> vessels;
@@ -87,7 +87,7 @@ struct SweepMark {
   std::optional<ShardMark> shards;
 };
 
-// What a sweep can have done at most.
+// The most that a sweep can have done.
 struct MarkBounds {
   std::size_t vessels = 0;
   std::uint64_t grips = 0;  // of a vessel
@@ -95,13 +95,13 @@ struct MarkBounds {
   std::size_t lists = 0;    // with progress of their own, each of
   std::size_t listed = 0;   // grips at most
   bool has_stretches = true;
-  bool has_reasons = true;  // of grips that are not feasible
+  bool has_reasons = true;  // of infeasible grips
 };
 
-// Adds a stretch after the others, or in place of the last one, from which it has grown.
+// Adds a stretch after the others, or in place of the last one if it has grown from it.
 void keep_stretch(std::vector<Stretch>& stretches, const Stretch& stretch);
 
-// Replaces the mark's file as a whole, synced, with a checksum of its own. Throws Error (failure).
+// Replaces the mark's file as a whole, synced, with its own checksum. Throws Error (failure).
 void save_mark(const std::string& path, const SweepMark& mark);
 
 // How a mark begins.
@@ -109,17 +109,16 @@ inline constexpr std::string_view MARK_START = "wholehand mark ";
 
 inline constexpr const char* BEGIN_AGAIN = "start again without --resume";
 
-// Reads a mark. False where there is none. Throws Error (failure) where it cannot be read as one, or is not as it was written; `remedy` ends
-// its line.
+// Reads a mark. False if there is none. Throws Error (failure) if it cannot be parsed, or is not as it was written; `remedy` ends its line.
 bool load_mark(const std::string& path, SweepMark& mark, const char* remedy = BEGIN_AGAIN);
 
-// Throws Error (failure) where a mark says what no sweep within these bounds can have done.
+// Throws Error (failure) if a mark claims what no sweep within these bounds can have done.
 void check_progress(const std::string& path, const SweepMark& mark, const MarkBounds& bounds);
 
-// Whether the partial file still has the structure that the mark vouches for, bit for bit: nothing else may open it, as HDF5 trusts what it reads.
+// Whether the partial file still has the mark's structure, bit for bit. Nothing else may open it, because HDF5 trusts what it reads.
 bool has_structure(const std::string& partial, const SweepMark& mark);
 
-// Throws Error (usage) that names the first difference between what was begun and what is asked for.
+// Throws Error (usage) that names the first difference between the begun sweep and the requested one.
 void check_identity(const std::string& partial, const SweepMark& mark, const std::map<std::string, std::string>& identity);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who carries the values of a result to their places in the file.
+// Writes the values of a result to their places in the file.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace wholehand {
 class OutputBytes {
  public:
   virtual ~OutputBytes() = default;
-  // Both answer 0, or the number of the system's error (errno).
+  // Both return 0, or the system's error number (errno).
   virtual int write(const void* data, std::size_t size, std::uint64_t offset) = 0;
-  virtual int sync() = 0;  // returns when all that was written is on the disk
+  virtual int sync() = 0;  // returns when everything written is on the disk
 };
 
-// Opens a file that is there. Throws Error (failure).
+// Opens an existing file. Throws Error (failure).
 using OpenOutput = std::function<std::unique_ptr<OutputBytes>(const std::string& path)>;
 
 }  // namespace wholehand

@@ -9,13 +9,13 @@ namespace wholehand {
 
 struct Scene;
 
-// Where the files of a sweep lie: NAME.nc and its companions, from the name of the result file. Where that is a symbolic link, what is written on the
-// way lies beside the file that it names.
+// The files of a sweep: NAME.nc and its companions, from the name of the result file. If that is a symbolic link, temporary files lie beside the file
+// that it points to.
 struct OutputNames {
   std::string result;   // NAME.nc as the user gave it
   std::string target;   // the file that this is or points to
   std::string partial;  // NAME.nc.partial while it is being written
-  std::string mark;     // NAME.nc.partial.mark: how far it is whole
+  std::string mark;     // NAME.nc.partial.mark: how much of it is complete
   std::string lock;     // NAME.nc.partial.lock: who writes it
   std::string best;     // NAME.best.csv
   std::string heat_map(const std::string& vessel_part) const { return stem + "." + vessel_part + ".svg"; }
@@ -27,7 +27,7 @@ struct OutputNames {
 
 OutputNames output_names(const std::string& result);
 
-// Throws Error (usage) where `path` is the scene file itself or a mesh of it, by whatever name.
+// Throws Error (usage) if `path` is the scene file itself or one of its meshes, under any name.
 void check_not_the_scene(const std::string& path, const Scene& scene, const char* option = "-o");
 
 }  // namespace wholehand

@@ -147,10 +147,10 @@ class SweepDefinition : ResultDefinition {
     text(NC_GLOBAL, "coordinates", joined(all, " "));
   }
 
-  // Points are stored with the grips; without these there is nothing that they would be coordinates of.
+  // Points are stored with the grips; without grips there is nothing for which they would be coordinates.
   bool has_points() const { return contents_.plan.is_sobol() && !contents_.variables.empty(); }
 
-  // Where heights are fractions every vessel has its own heights in m.
+  // If heights are fractions, every vessel has its own heights in m.
   bool has_own_heights() const { return contents_.plan.height_is_fraction() && (has_points() || !contents_.plan.is_sobol()); }
 
   void point_axes() {
@@ -176,7 +176,7 @@ class SweepDefinition : ResultDefinition {
     }
   }
 
-  // `fill` as the scene gives it, and of each vessel both the fraction and the volume.
+  // `fill` as in the scene, and for each vessel both the fraction and the volume.
   void fill_coordinates() {
     const Scene& scene = contents_.scene;
     if (!scene.liquid && scene.tilts.empty()) return;
@@ -325,7 +325,7 @@ class SweepDefinition : ResultDefinition {
       grip_variables_.push_back(id);
       return id;
     };
-    // without a value for missing ones, so that it opens as the whole number that an index is
+    // without a missing value, so that xarray opens it as an integer, as an index should be
     const int grip = define(BEST_GRIP, NC_INT64, "1", "best grips: index over all dimensions of the grips, the last one fastest");
     text(grip, "comment", "-1 beyond the last feasible, plausible grip that holds");
     fill_value(define(BEST_SCORE, NC_DOUBLE, "1", "best grips: score"), NC_DOUBLE);

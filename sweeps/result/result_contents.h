@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep's result file holds, and its definition as NetCDF-4.
+// The contents of a sweep's result file, and its definition as NetCDF-4.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace wholehand {
 
-// All that a result file says, but for the grips' own values. Refers to the scene and the plan.
+// Everything in a result file except the grips' own values. Refers to the scene and the plan.
 struct ResultContents {
   const Scene& scene;
   const Plan& plan;
@@ -26,7 +26,7 @@ struct ResultContents {
   std::size_t best = 0;  // ranks of the best grips
 };
 
-// One grip of the best, as the result file keeps it.
+// One of the best grips, as the result file stores it.
 struct RankedGrip {
   Candidate candidate;
   GripInput grip;
@@ -38,12 +38,11 @@ struct RankedGrip {
 // Dimensions of the grips: those of the plan's axes, or "point" for Sobol points.
 std::vector<std::string> grip_dimensions(const Plan& plan);
 
-// Height of the thumb-index line in the vessel's frame, m: an axis, or over (vessel, height's axis) where that has fractions.
+// Height of the thumb-index line in the vessel's frame, m: an axis, or over (vessel, height's axis) if that has fractions.
 constexpr const char* HEIGHT = "height";
 
-// Variables of the best grips over (vessel, rank), or (vessel, hand scale, rank) where the plan has several hand scales: index in the grips'
-// dimensions, score, and the axes (heights in m always); of the refined grips score and axes, but for the hand scale, which stays;
-// with [robust] their robust scores.
+// Variables of the best grips over (vessel, rank), or (vessel, hand scale, rank) if the plan has several hand scales: index in the grips' dimensions,
+// score, and the axes (heights always in m); for refined grips score and axes, except the hand scale, which stays; with [robust] their robust scores.
 constexpr const char* BEST_GRIP = "best_grip";
 constexpr const char* BEST_SCORE = "best_score";
 std::string best_axis_name(const PlanAxis& axis);
@@ -55,7 +54,7 @@ std::string refined_axis_name(const PlanAxis& axis);
 bool is_refined_axis(const PlanAxis& axis);
 std::string best_scale_dimension(const Plan& plan);  // of the hand scales; Sobol points have a variable of the plain name
 
-// Attributes of a scene with meshes: where relative mesh files are searched from, and what identifies them (core/meshes/vessel.h).
+// Attributes of a scene with meshes: where the search for relative mesh files starts, and what identifies them (core/meshes/vessel.h).
 constexpr const char* SCENE_FILE = "scene_file";
 constexpr const char* MESHES = "meshes";
 constexpr const char* MESH_KEYS = "mesh_keys";
@@ -65,11 +64,11 @@ constexpr const char* MESH_LATTICES = "mesh_lattices";
 constexpr const char* WALL_TIME = "wall_time_s";
 constexpr const char* KERNEL_TIME = "kernel_time_s";
 
-// Bytes that the file needs at most. Needs no facts, and of the info only the precision: without them some texts' bytes are left out.
+// Upper bound of the file's bytes. Needs no facts, and of the info only the precision; without them, some texts' bytes are left out.
 std::uint64_t result_size(ResultContents contents);
 
-// Creates the file `path` with every dimension, attribute and variable, all values that need no grip, and room for those that do:
-// every variable of the grips is one contiguous block, allocated and not filled. Throws Error (failure).
+// Creates the file `path` with every dimension, attribute and variable, all values that need no grip, and room for the others: every variable of the
+// grips is one contiguous block, allocated and not filled. Throws Error (failure).
 void define_result_file(const std::string& path, const ResultContents& contents);
 
 }  // namespace wholehand

@@ -17,7 +17,7 @@
 namespace wholehand {
 namespace {
 
-// Bytes of a value in the file; of a text a reference, and what its heap has beside it.
+// Bytes of a value in the file; for a text, a reference plus its heap's overhead.
 std::size_t value_size(nc_type type) {
   constexpr std::size_t REFERENCE = 16, IN_HEAP = 24;
   switch (type) {
@@ -37,7 +37,7 @@ std::size_t value_size(nc_type type) {
 }  // namespace
 
 ResultDefinition::ResultDefinition(const std::string& path, std::string remedy) : path_(path), remedy_(std::move(remedy)) {
-  // absolute: the library takes a path of an address's form for one
+  // absolute, because the library takes a relative path in an address's form for an address
   check(nc_create(std::filesystem::absolute(path).c_str(), NC_NETCDF4 | NC_NOCLOBBER, &file_));
 }
 
@@ -60,9 +60,9 @@ void ResultDefinition::finish(const std::vector<int>& later) {
   check(nc_close(file));
 }
 
-// HDF5's structures grow with the attributes, of which each variable has some, and with the dimensions of each variable, which are attributes
-// to HDF5: by 300 to 410 bytes for each attribute of ours in the files of all kinds of sweeps. A long text moves as its place grows, and
-// leaves the first one empty; the longest have a place of their own.
+// HDF5's structures grow with the attributes of each variable and with its dimensions, which are attributes to HDF5: by 300 to 410 bytes for each of
+// our attributes, in the files of all kinds of sweeps. A long text moves as its block grows, and leaves the first one empty; the longest have their
+// own place.
 void ResultDefinition::count_attribute(std::size_t bytes) {
   constexpr std::size_t OF_ATTRIBUTE = 415, LONG = 1 << 10, LARGEST_IN_HEAD = 1 << 16;
   size_ += OF_ATTRIBUTE + bytes + (bytes > LONG && bytes < LARGEST_IN_HEAD ? bytes : 0);

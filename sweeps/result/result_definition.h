@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A NetCDF-4 file while it is defined: dimensions, attributes and variables, every one of them contiguous and in native byte order, so that
-// values can be put in their places later without the library.
+// Defines a NetCDF-4 file: dimensions, attributes and variables, all contiguous and in native byte order, so that values can later be put in place
+// without the library.
 #pragma once
 
 #include <netcdf.h>
@@ -15,20 +15,20 @@
 
 namespace wholehand {
 
-// What integers stand for: the meanings of 0, 1 .., each one word. MISSING may stand for a value that is not there.
+// The meanings of integers 0, 1 .., each one word. MISSING may stand for a missing value.
 struct IntegerCodes {
   std::vector<std::string> meanings;
   bool may_lack = false;
 };
 
-// Every method throws Error (failure) with the file's name and the remedy. The file is discarded unless `finish` was called. Without a file the
-// same calls only count what it would take.
+// Every method throws Error (failure) with the file's name and the remedy. The file is discarded unless `finish` was called. Without a file the same
+// calls only count its size.
 class ResultDefinition {
  public:
   using Names = std::vector<std::string>;
 
   ResultDefinition() = default;
-  // Creates the file, which must not be there.
+  // Creates the file, which must not exist.
   explicit ResultDefinition(const std::string& path, std::string remedy = "is the disk full?");
   ~ResultDefinition();
   ResultDefinition(const ResultDefinition&) = delete;
@@ -40,13 +40,13 @@ class ResultDefinition {
   void text(int variable, const char* name, const std::string& value);
   void number(int variable, const char* name, double value);
   void numbers(int variable, const char* name, nc_type type, std::size_t count, const void* values);
-  // What stands for a missing value: NaN or MISSING.
+  // The value that stands for a missing one: NaN or MISSING.
   void fill_value(int variable, nc_type type);
 
-  // A variable with its units and name, whose values come later; not filled first.
+  // A variable with its units and name, whose values come later; not filled.
   int variable(const std::string& name, nc_type type, const Names& dims, const std::string& units, const std::string& long_name);
 
-  // Variables with their values, which `finish` writes. Labels are those of the dimension of their name.
+  // Variables with their values, which `finish` writes. Labels belong to the dimension of their name.
   void doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
                std::vector<double> values);
   void integers(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
@@ -57,10 +57,10 @@ class ResultDefinition {
   // The variable of the checksums, with room for those of all variables so far.
   int checksums();
 
-  // Bytes of the file so far: values, texts, and what HDF5 needs around them at most.
+  // Upper bound of the file's bytes so far: values, texts, and HDF5's overhead.
   std::uint64_t size() const { return size_; }
 
-  // Ends the definition, writes what it has values of, gives the blocks of `later` their places and closes the file.
+  // Ends the definition, writes the known values, gives the blocks of `later` their places and closes the file.
   void finish(const std::vector<int>& later);
 
  private:

@@ -69,7 +69,7 @@ ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents,
     set_blocks();
     struct stat status {};
     if (fstat(file_, &status) != 0) fail("read", errno);
-    // a file system that cannot reserve is no error, one that lacks the room is
+    // a file system that cannot reserve is no error; one without the room is
     if (start == FileStart::reserved && fallocate(file_, 0, 0, status.st_size) != 0 && errno != EOPNOTSUPP && errno != ENOSYS)
       fail("reserve room for", errno);
     if (open_output) output_ = open_output(names_.partial);
@@ -98,7 +98,7 @@ ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents,
 void ResultFile::create(FileStart start) {
   unlink(names_.mark.c_str());
   if (unlink(names_.partial.c_str()) != 0 && errno != ENOENT) fail("replace", errno);
-  // HDF5 does not survive a disk that fills up under it
+  // HDF5 crashes if the disk fills up while it writes
   if (start == FileStart::reserved) check_room(names_.partial, result_size(contents_));
   try {
     define_result_file(names_.partial, contents_);
@@ -275,7 +275,7 @@ bool ResultFile::has_eligible() const {
 }
 
 std::vector<Candidate> ResultFile::eligible(std::size_t vessel, std::uint64_t first, std::uint64_t last) const {
-  // opened anew: a file system of a network shows what others wrote when a file is opened
+  // opened anew, because a network file system shows others' writes when a file is opened
   const int file = open(names_.partial.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (file < 0) fail("open", errno);
   const auto read_block = [&](const char* name, void* to) {
@@ -424,7 +424,7 @@ void check_readable(const OutputNames& names) {
   try {
     const GuardedFile file(names.partial);
   } catch (const Error& error) {
-    // what could not be tried says nothing of the file
+    // a failed attempt says nothing about the file
     const char* remedy = error.code == ExitCode::failure ? "go on with --resume" : "start again without --resume";
     throw failure_error(fmt::format("{} (found when the sweep read the file back); {}", error.what(), remedy));
   }

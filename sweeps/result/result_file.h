@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The result file of a sweep while it is written: chunk by chunk, whole or not there, and never unreadable.
+// The result file of a sweep during writing: chunk by chunk, complete or absent, and readable at any time.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ namespace wholehand {
 struct FilePlaces {
   std::vector<std::uint64_t> variables;  // in the order of the contents
   std::vector<std::uint64_t> axes;       // the axes' values at Sobol points; empty for a grid
-  std::optional<std::uint64_t> height;   // the vessels' heights in m at Sobol points, where their axis has fractions
+  std::optional<std::uint64_t> height;   // the vessels' heights in m at Sobol points, if their axis has fractions
   std::vector<std::uint64_t> best;       // best_grip, best_score, axes; refined score, axes; robust scores
   FileRange checksums;                   // known only to the process that made the file
 };
 
-// How a file begins: new, with room for all of it; new, where other files take most of the values; or as an earlier sweep has left it.
+// How a file begins: new, with room for everything; new, if other files take most of the values; or as an earlier sweep left it.
 enum class FileStart { reserved, sparse, resumed };
 
 // NetCDF defines the file once (result_contents.h) and closes it. From then on only the values change, and they go straight to the
@@ -40,23 +40,21 @@ enum class FileStart { reserved, sparse, resumed };
 // All methods throw Error (failure) with the file, the reason and what to do.
 class ResultFile {
  public:
-  // Creates NAME.nc.partial, or, to resume, opens the one that is there as it is. Who holds the result's lock (base/files/output_lock.h) alone may
-  // do that. Contents must outlive the object, the same ones for a file that is resumed.
+  // Creates NAME.nc.partial, or, to resume, opens the existing one unchanged. Only the holder of the result's lock (base/files/output_lock.h) may do
+  // that. Contents must outlive the object, and be the same for a resumed file.
   ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, FileStart start,
              const OpenOutput& open_output = {});
-  // Opens the one that another process has made, whose places these are, to put grips into it beside that process; or a shard
-  // (sweeps/result/shard.h).
+  // Opens the file of another process, with its places, to add grips beside that process; or a shard (sweeps/result/shard.h).
   ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, const FilePlaces& places,
              const OpenOutput& open_output = {});
   ~ResultFile();
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
 
-  // Puts a chunk in its place, once per azimuth that it stands for.
+  // Puts a chunk in its place, once per azimuth for which it stands.
   void write(const PlaneChunk& chunk);
 
-  // The grips that were written since the last end_stretch, all of one vessel and in their order, and their checksum. Others begin a stretch of
-  // their own.
+  // The grips written since the last end_stretch, all of one vessel and in order, and their checksum. Other grips begin their own stretch.
   Stretch stretch() const;
   void end_stretch();
   // Whether the file holds grips with this checksum: reads them back.
@@ -65,39 +63,38 @@ class ResultFile {
   const RunLayout& layout() const { return layout_; }
   const std::string& path() const { return names_.partial; }
   std::uint64_t inode() const;  // distinguishes the file from others of its name on other machines
-  // Throws where another file, or none, has the name now: another job took it, one that no lock kept away. To be called before anything is done under
-  // that name, such as saving a mark.
+  // Throws if another file, or none, has the name now: another job took it that no lock kept away. Call before doing anything under that name, such
+  // as saving a mark.
   void check_own() const;
-  // Whether the file keeps what decides which grips may be listed; and those of the grips [first, last) of a vessel, from the file as it is
-  // now, whoever wrote it.
+  // Whether the file keeps what decides which grips may be listed; and those data of the grips [first, last) of a vessel, from the present file,
+  // whoever wrote it.
   bool has_eligible() const;
   std::vector<Candidate> eligible(std::size_t vessel, std::uint64_t first, std::uint64_t last) const;
-  // Whether the file holds anything of the grips.
+  // Whether the file holds any data of the grips.
   bool has_grips() const { return !blocks_.empty(); }
 
-  // Puts into a mark what it vouches for besides; write_ending changes it.
+  // Adds to a mark what else it vouches for; write_ending changes it.
   void vouch_for_structure(SweepMark& mark);
 
-  // Returns when everything written is on the disk; start_sync only sets the disk to it, so that other work goes on meanwhile.
+  // The first returns when everything written is on the disk; start_sync only starts that, so that other work continues meanwhile.
   void sync();
   void start_sync();
 
-  // Writes the best grips (a list for each vessel and hand scale, in the order of GripLists, the best first; what is missing of the ranks is
-  // filled) and the times.
+  // Writes the best grips (a list for each vessel and hand scale, in the order of GripLists, the best first; missing ranks are filled) and the times.
   void write_ending(const std::vector<std::vector<RankedGrip>>& best, double wall_seconds, double kernel_seconds);
 
-  // From now on what is read of the file comes from the disk, if it is synced.
+  // From now on reads of a synced file come from the disk.
   void drop_cached();
   // The checksum of a block of it (sweeps/result/result_checksums.h).
   std::string block_checksum(const ChecksumPart& part, std::uint64_t block) const {
     return wholehand::block_checksum(file_, part, block);
   }
-  // Syncs, has the NetCDF library read the structure of the file, writes the checksums (parts that some are known of may be given), renames
-  // NAME.nc.partial to NAME.nc, closes it and removes the mark. The last call.
+  // Syncs, has the NetCDF library read the structure of the file, writes the checksums (parts with some known may be given), renames NAME.nc.partial
+  // to NAME.nc, closes it and removes the mark. The last call.
   void finish(ChecksumParts parts = {});
 
   std::uint64_t bytes() const { return bytes_; }  // of values written by this process
-  double seconds() const { return seconds_; }     // that writing and syncing took; the definition does not grow with the grips
+  double seconds() const { return seconds_; }     // time for writing and syncing; the definition does not grow with the grips
 
  private:
   struct Block : LayoutBlock {
@@ -123,18 +120,18 @@ class ResultFile {
   FilePlaces places_;
   RunLayout layout_;
   std::unique_ptr<OutputBytes> output_;  // null: the system's own calls
-  std::vector<unsigned char> buffer_;    // values of one plane that need converting
+  std::vector<unsigned char> buffer_;    // values of one plane that need conversion
   RunsChecksum checksum_;                // of the stretch that is being written
   Stretch stretch_;
   std::size_t stretch_vessel_ = 0;
   std::string structure_;
-  int sync_error_ = 0;  // stays: the system reports lost values once
+  int sync_error_ = 0;  // sticky: the system reports lost values once
   std::uint64_t bytes_ = 0;
   double seconds_ = 0;
 };
 
-// The last steps of a result whose values are on the disk: the first has the NetCDF library read the structure of NAME.nc.partial, the second
-// renames it to NAME.nc and removes the mark. Both throw Error (failure).
+// The last steps of a result whose values are on the disk: the first has the NetCDF library read the structure of NAME.nc.partial, the second renames
+// it to NAME.nc and removes the mark. Both throw Error (failure).
 void check_readable(const OutputNames& names);
 void name_result(const OutputNames& names);
 

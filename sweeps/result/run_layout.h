@@ -21,13 +21,13 @@ struct LayoutBlock {
 
 struct RunLayout {
   std::uint64_t grips = 0;   // of a vessel, evaluated
-  std::uint64_t copies = 1;  // azimuths that each stands for
+  std::uint64_t copies = 1;  // azimuths for which each stands
   std::vector<LayoutBlock> blocks;
-  std::optional<std::uint64_t> height;  // offset of the vessels' heights at Sobol points, 8 B each, where their axis has fractions
-  std::vector<std::uint64_t> axes;      // offsets of the axes' values at Sobol points, 8 B each, which all vessels share
+  std::optional<std::uint64_t> height;  // offset of the vessels' heights at Sobol points, 8 B each, if their axis has fractions
+  std::vector<std::uint64_t> axes;      // offsets of the axes' values at Sobol points, 8 B each, shared by all vessels
   bool operator==(const RunLayout&) const = default;
 
-  // Calls visit(run, range) for each run of grips [first, first + count) that the file holds in one piece: planes of variables, then heights and
+  // Calls visit(run, range) for each run of grips [first, first + count) that the file stores contiguously: planes of variables, then heights and
   // axes of Sobol points. `run` counts from 0, and means the same for each copy.
   template <class Visit>
   void visit(std::size_t vessel, std::uint64_t first, std::uint64_t count, std::uint64_t copy, const Visit& visit) const {

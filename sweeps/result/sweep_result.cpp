@@ -29,7 +29,7 @@ namespace {
 constexpr std::size_t AT_ONCE = 1 << 18;        // values
 constexpr std::uint64_t SEEK_IN_VALUES = 4096;  // reading one value alone takes as long as so many in a row
 
-// Throws where the file is none that a sweep finished, by its name and first bytes; returns the path.
+// Throws if the file, by its name and first bytes, is not one that a sweep finished; returns the path.
 const std::string& check_is_result(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {
@@ -103,7 +103,7 @@ void SweepResult::use(const Scene& scene, const Plan& plan) {
   } else {
     for (const PlanAxis& axis : plan.axes()) grip_shape_.push_back(axis.values.size());
   }
-  // one that is wrong makes the file foreign, whether or not it is asked for later
+  // a wrong one makes the file foreign, whether or not it is needed later
   for (const Variable* variable : variables_) {
     std::vector<std::size_t> shape{scene.vessels.size()};
     for (const char* dim : variable->dims) {
@@ -119,8 +119,8 @@ void SweepResult::use(const Scene& scene, const Plan& plan) {
   }
 }
 
-// Ranges of the grips' numbers are no blocks of the file, which has a dimension for each axis: they are taken apart into the largest ones
-// that begin and end at whole steps of an axis.
+// Ranges of the grips' numbers are not blocks of the file, which has a dimension for each axis. They are divided into the largest ones that begin and
+// end at whole steps of an axis.
 void SweepResult::read(const Variable& variable, std::size_t vessel, std::size_t plane, std::uint64_t first, std::size_t count,
                        double* out) const {
   const GuardedFile::Stored& stored = numbers(variable.name);
@@ -263,7 +263,7 @@ std::vector<double> SweepResult::of_vessels(const char* name) const {
   return values;
 }
 
-// The only way to a value. What the block covers in the file's order is compared with its checksums first.
+// The only way to a value. First compares everything that the block covers in the file's order with its checksums.
 void SweepResult::read_block(const GuardedFile::Stored& variable, std::span<const std::size_t> start,
                              std::span<const std::size_t> count, double* out) const {
   std::uint64_t first = 0, last = 0;

@@ -25,8 +25,8 @@ bool is_there(const std::string& path) {
   return stat(path.c_str(), &status) == 0;
 }
 
-// Where the sweep of an unfinished or finished result ran, and its precision. False: no such result, or none that says so; whoever goes on
-// with it says what is wrong.
+// Where the sweep of an unfinished or finished result ran, and its precision. False: there is no such result, or it does not say; resuming it reports
+// what is wrong.
 bool origin_of(const OutputNames& names, std::string& on, Precision& precision) try {
   SweepMark mark;
   if (is_there(names.partial)) {

@@ -34,31 +34,30 @@ Workload workload_of(const Scene& scene, const std::vector<const Variable*>& var
 double core_seconds(const Workload& work, int threads);
 double cpu_driver_seconds(const Workload& work, int threads, Precision precision);
 
-// Whether the core needs a second or more. Opening a device takes about as long.
+// Whether the core needs a second or more, about the time that opening a device takes.
 bool pays_for_device(const Workload& work, int threads);
 
 struct BackendChoice {
   std::string on = "core";  // or "vulkan"
-  std::string alternative;  // what the other would take or lacks; completes the sentence of backend_line
+  std::string alternative;  // the other's time or what it lacks; completes the sentence of backend_line
 };
 
-// Chooses the core or the best of `devices`. `threads` is for the core; 0 means all. `precision` is absent where the user names none.
+// Chooses the core or the best of `devices`. `threads` is for the core; 0 means all. `precision` is absent if the user names none.
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
                              const std::vector<host::DeviceInfo>& devices);
 
-// Chooses among the devices of this machine, which are listed only where one may be chosen. Falls back to the core where there is none. Does not
-// throw.
+// Chooses among the devices of this machine, which are listed only if one may be chosen. Falls back to the core if there is none. Does not throw.
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision);
 
-// Decides when it is made, before meshes are read; `options.on` then says core or a device, and `options.alternative` what the other would take.
-// Where `options.on` is not ON_AUTO it does nothing. A sweep that is resumed goes on where it began, with the precision that it began with.
+// Decides on construction, before meshes are read; `options.on` then names core or a device, and `options.alternative` gives the other's time. Does
+// nothing unless `options.on` is ON_AUTO. A resumed sweep keeps the backend and precision with which it began.
 class AutoBackend {
  public:
-  // `options` must outlive the object. A scene that no sweep takes is refused later, by the sweep.
+  // `options` must outlive the object. The sweep itself later refuses invalid scenes.
   AutoBackend(const Scene& scene, SweepOptions& options);
 
-  // What `work` makes of options.on. Where the program chose the device itself and that fails, options.on becomes the core, and `work` is
-  // done again; then a note says so. Where the core fails too, it was not the device, and only the core's error is reported.
+  // Returns what `work` makes of options.on. If the program itself chose a device and that fails, options.on becomes the core, `work` runs again, and
+  // a note says so. If the core fails too, the device was not the cause, and only the core's error is reported.
   template <class Work>
   auto with_core_fallback(Work&& work) {
     if (!may_change_) return work();

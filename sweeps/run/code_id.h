@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which code computes. The definition comes from cmake/code_id.cmake.
+// Identifies the code that computes. The definition comes from cmake/code_id.cmake.
 #pragma once
 
 namespace wholehand {

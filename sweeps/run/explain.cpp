@@ -29,7 +29,7 @@ namespace {
 constexpr std::uint64_t RUNS = 6;           // of each way; the first makes ready
 constexpr std::size_t SEARCHED_GRIPS = 64;  // for the figures of the search, at most
 
-// A way to evaluate the sample: what it took a grip, and what a grip takes in memory.
+// A way to evaluate the sample: its time and its memory for each grip.
 struct Measured {
   double seconds = 0;
   std::size_t bytes = 0;
@@ -51,7 +51,7 @@ class Explainer {
     for (std::uint64_t i = 0; i < options.grips; ++i) sample_.push_back(plan.grip(0, i * all / options.grips % all));
   }
 
-  // Counts the ways first, so that the time is known when the first way is measured.
+  // Counts the ways first, so that the total time is known when the first is measured.
   std::string run() {
     is_counting_ = true;
     explain();
@@ -205,8 +205,8 @@ class Explainer {
         scene_.tilts.empty() ? "5 fills and 31 tilts" : "5 fills");
   }
 
-  // The cost of keeping the hand above the table: saved in a scene without one, paid in a scene with one. Both ways leave out efforts:
-  // only plausible grips have them, and a table leaves fewer.
+  // The cost of keeping the hand above the table: saved in a scene without one, paid in a scene with one. Both ways leave out efforts, because only
+  // plausible grips have them, and a table leaves fewer.
   void table(const Measured& as_is) {
     part(as_is, &Scene::table, "the table", "keeping the hand above a table: the scene has no table", "a table");
   }
@@ -234,7 +234,7 @@ class Explainer {
     row(lacked, measure(other, make_field_set(kept_fields(), other), OUTLINE_COPIED), as_is, with);
   }
 
-  // The same of the spheres between the joints: with strengths they press too, and the hand rests elsewhere, so that efforts are left out here.
+  // The same for the spheres between the joints. With strengths they press too, and the hand rests elsewhere, so efforts are left out here.
   void body(Measured as_is) {
     Scene other = scene_;
     if (scene_.strength) {
@@ -282,7 +282,7 @@ class Explainer {
     }
   }
 
-  // The same of the efforts, and what the search for the worst of them takes.
+  // The same for efforts, and the cost of the search for the worst of them.
   void efforts(const Measured& as_is) {
     if (scene_.tilts.empty()) return;
     Scene other = scene_;
@@ -336,7 +336,7 @@ class Explainer {
         unheld);
   }
 
-  // The core's time for one of some plausible grips of the sample, us; of any grips where none is plausible. Candidates are plausible, and so are
+  // The core's time for one of some plausible grips of the sample, us; for any grips if none is plausible. Candidates are plausible, and so are
   // nearly all of their deviations.
   double plausible_grip() {
     const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_);
@@ -394,7 +394,7 @@ class Explainer {
     return kept;
   }
 
-  // Computed for every azimuth, as they come in the scene, the sample would be this many grips.
+  // The number of grips in the sample if every azimuth of the scene were computed.
   void azimuth() {
     if (plan_.copies() < 2) return;
     std::vector<GripInput> turned = sample_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep leaves out because its scene does not need it, and what that saves: measured there and then, both ways on one sample.
+// What a sweep leaves out because its scene does not need it, and the time saved, measured on the spot with one sample both ways.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ struct ExplainOptions {
   std::size_t grips = EXPLAIN_GRIPS;  // of the first vessel, in each variant
 };
 
-// Lines for the terminal. Each variant evaluates the same grips of the scene's first vessel, the shortest of five runs after one
-// that warms up. Throws Error as open_backend does.
+// Lines for the terminal. Each variant evaluates the same grips of the scene's first vessel; takes the shortest of five runs after one warm-up.
+// Throws Error as open_backend does.
 std::string explain_sweep(const Scene& scene, const Plan& plan, const FieldSet& fields, const ExplainOptions& options);
 
 }  // namespace wholehand

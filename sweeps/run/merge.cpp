@@ -32,7 +32,7 @@ namespace wholehand {
 namespace {
 
 constexpr std::size_t AT_ONCE = std::size_t{1} << 20;         // bytes
-constexpr std::uint64_t UNTIL_SYNC = std::uint64_t{1} << 26;  // bytes that may wait for the disk before it is set to them
+constexpr std::uint64_t UNTIL_SYNC = std::uint64_t{1} << 26;  // bytes that may wait for the disk before writing back starts
 
 class OpenFile {
  public:
@@ -66,7 +66,7 @@ class Merge {
     read_mark();
     find_shards();
     const OpenFile result(names_.partial, O_RDWR | O_NOFOLLOW);
-    // a file system that cannot reserve is no error, one that lacks the room is
+    // a file system that cannot reserve is no error; one without the room is
     if (fstat(result, &status) != 0 || (fallocate(result, 0, 0, status.st_size) != 0 && errno != EOPNOTSUPP && errno != ENOSYS))
       fail_writing();
     InterruptGuard interrupt;
@@ -153,7 +153,7 @@ class Merge {
     return true;
   }
 
-  // Reads a stretch, once for each azimuth that it stands for, and puts it into the result if it comes from elsewhere.
+  // Reads a stretch, once for each azimuth for which it stands, and puts it into the result if it comes from elsewhere.
   void take(std::size_t v, const Stretch& stretch, int from, int result) {
     const RunLayout& layout = mark_.shards->layout;
     for (std::uint64_t copy = 0; copy < layout.copies; ++copy) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One result file of the shards that the nodes of a sweep wrote (sweeps/result/shard.h).
+// Merges the shards that the nodes of a sweep wrote (sweeps/result/shard.h) into one result file.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace wholehand {
 
 struct MergeRequest {
   std::string result;                // NAME.nc
-  std::vector<std::string> folders;  // where the search for shards goes, beside that of the result
+  std::vector<std::string> folders;  // folder to search for shards, besides the result's
 };
 
 // Copies the grips of all shards into NAME.nc.partial, comparing each stretch with the checksum that the sweep's mark has of it, and those of the

@@ -15,7 +15,7 @@ namespace {
 
 void read_meshes(Scene& scene, const SweepOptions& options, const std::function<std::uint64_t()>& device_bytes) {
   if (!options.note) return load_meshes(scene, device_bytes);
-  if (!has_meshes(scene)) return;  // what is found of them is no note: the other program asks for it where it wants to
+  if (!has_meshes(scene)) return;  // findings on them are not notes: the other program asks for them where it wants
   MeshOptions mesh_options;
   mesh_options.is_quiet = true;
   mesh_options.most_bytes = largest_lattice(device_bytes());

@@ -100,10 +100,10 @@ bool Sweep::is_already_complete() const {
 ExitCode Sweep::run() {
   // a file that grows past its limit is an error of the write, not the end of the process
   std::signal(SIGXFSZ, SIG_IGN);
-  // The process is not a quiet sweep's to end: a signal that comes before the first grips waits for them.
+  // The process is not a quiet sweep's to end: a signal before the first grips waits for them.
   std::optional<InterruptGuard> guard;
   if (is_quiet()) guard.emplace().on_second_signal([](int) {});
-  // first, since it needs neither room nor a place to write to
+  // first, because it needs neither disk space nor an output path
   if (is_already_complete()) return report_already_complete();
   check();
   const OutputLock lock(names_.lock);
@@ -112,8 +112,8 @@ ExitCode Sweep::run() {
   print_header();
   const ResultContents written = contents();
   const bool resumed = begin();
-  // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish, but for
-  // refined grips and robust scores.
+  // An interrupt while the file is laid out waits for the first grips. One after the last grip lets the ending finish, except refined grips and
+  // robust scores.
   InterruptGuard& interrupt = guard ? *guard : guard.emplace();
   ResultFile file(names_, written, backend_->fields(), resumed ? FileStart::resumed : FileStart::reserved, parts_.open_output);
   is_marked_ = resumed;
@@ -166,16 +166,16 @@ std::size_t Sweep::pool() const {
 std::size_t Sweep::candidates() const { return robust_candidates(scene_, best_wanted_); }
 std::size_t Sweep::kept_best() const { return needs_distinct_grips() ? pool() : candidates(); }
 ListRequest Sweep::list_request() const { return {candidates(), scene_.output.apart, pool(), options_.threads}; }
-// Lists of different grips reach far below the best ones, so that there all grips are judged (docs/results).
+// Lists of different grips reach far below the best ones, so that all grips are judged there (docs/results).
 bool Sweep::skips_hopeless_efforts() const { return variables_.empty() && best_wanted_ > 0 && !needs_distinct_grips(); }
 bool Sweep::ranks_here() const { return best_wanted_ > 0 && (needs_distinct_grips() || plan().hand_scales() > 1); }
-// The fields that are read back. A device chooses a few of the best over all hands together; with several hand scales, and where grips
-// have to differ, the host chooses from the scores.
+// The fields that are read back. A device chooses a few of the best over all hands together; with several hand scales, or if grips must differ, the
+// host chooses from the scores.
 std::vector<int> Sweep::swept_fields() const {
   const std::vector<int> kept = variable_fields(variables_);
   std::set<int> fields(kept.begin(), kept.end());
   if (ranks_here()) fields.insert({FIELD_SCORE, FIELD_STATUS});
-  // where no grip holds, the sweep reports the one that is nearest to it
+  // if no grip holds, the sweep reports the nearest one
   if (best_wanted_ > 0 && has_effort(scene_)) fields.insert({FIELD_STATUS, FIELD_WORST_EFFORT});
   return {fields.begin(), fields.end()};
 }
@@ -266,7 +266,7 @@ bool Sweep::is_time_up() const { return options_.time_limit > 0 && since(options
 bool Sweep::is_asked_to_end(InterruptGuard& interrupt) const { return interrupt.signalled() || is_time_up(); }
 bool Sweep::is_mark_due() const { return since(last_mark_) >= mark_interval_; }
 
-// Computes again what the file no longer holds as it was written. False: interrupted; the mark still stands.
+// Recomputes what the file no longer holds as it was written. False: interrupted; the mark still stands.
 bool Sweep::repair(ResultFile& file, InterruptGuard& interrupt) {
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     for (const Stretch& stretch : mark_.vessels[v].stretches)
@@ -318,7 +318,7 @@ RunRequest Sweep::grips_of(std::size_t v, InterruptGuard& interrupt) const {
   return request;
 }
 
-// Every vessel from where it stands to its end. False: interrupted, everything done so far is marked.
+// Continues every vessel to its end. False: interrupted; everything done so far is marked.
 bool Sweep::sweep(ResultFile& file, InterruptGuard& interrupt) {
   Progress progress(total(), done(), "grips", is_quiet() ? ProgressSink::none : progress_sink(ProgressSink::none));
   last_mark_ = monotonic_now();
@@ -377,7 +377,7 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   const RunResult result = backend_->run(request);
   wait_seconds_ += since(start) - sink_seconds;
   interrupt.clear();
-  // a backend that has nothing to hand over need not call the sink; one that has must hand over all of it
+  // a backend without results to deliver need not call the sink; one with results must deliver all of them
   if ((delivered != result.done && !(delivered == 0 && variables_.empty())) || (result.done == 0 && !is_asked_to_end(interrupt))) {
     throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, readable_number(delivered),
                                     readable_number(result.done)));
@@ -404,8 +404,8 @@ void Sweep::note_once(const std::vector<std::string>& notes, Progress* progress)
   }
 }
 
-// The lists of a vessel whose grips were all computed, out of the best of them and in further passes over all where it takes
-// these. False: interrupted; the mark has what is decided.
+// Chooses the lists of a vessel whose grips are all computed, from the best of them and, if needed, in further passes over all. False: interrupted;
+// the mark has what is decided.
 bool Sweep::choose(std::size_t v, ResultFile& file, InterruptGuard& interrupt) {
   VesselProgress& vessel = mark_.vessels[v];
   const bool is_first = vessel.lists.empty();
@@ -440,14 +440,14 @@ void Sweep::reset_score_cache() {
   cached_count_ = 0;
 }
 
-// Chunks come in ascending order; those from before an interrupt do not come again, and then a further pass does.
+// Chunks come in ascending order; those from before an interrupt do not come again, so then a further pass is needed.
 void Sweep::cache_scores(const std::vector<Candidate>& eligible, std::size_t of_grips) {
   if (score_cache_.empty()) return;
   for (const Candidate& grip : eligible) score_cache_[static_cast<std::size_t>(grip.index)] = grip.score;
   cached_count_ += of_grips;
 }
 
-// A further pass over scores that are known. An interrupt is checked before the next pass.
+// A further pass over known scores. An interrupt is checked before the next pass.
 void Sweep::pass_cached_scores(ListChooser& chooser) const {
   constexpr std::size_t AT_ONCE = 1 << 16;
   std::vector<Candidate> eligible;
@@ -487,7 +487,7 @@ bool Sweep::pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& inte
   return result.done == plan().grips();
 }
 
-// Everything up to here onto the disk, then the mark that says so.
+// Syncs everything up to here to the disk, then saves the mark that says so.
 void Sweep::save(ResultFile& file) {
   const double start = monotonic_now();
   file.sync();
@@ -530,7 +530,7 @@ void Sweep::run_and_save_on_failure(ResultFile& file, const std::function<void()
     try {
       save(file);
     } catch (const std::exception&) {
-      // the first failure is what the user has to know
+      // the user must know the first failure
     }
     throw;
   }
@@ -565,7 +565,7 @@ Ranking Sweep::rank_finished(const RankRequest& request) const {
   return rank_grips(result, scene_, plan(), own, parts_.open_evaluator);
 }
 
-// The note for a vessel of which no grip holds.
+// The note for a vessel without a holding grip.
 std::string Sweep::unheld(std::size_t v) const {
   const GripCounts& counts = mark_.vessels[v].counts;
   if (!counts.none_holds() || !counts.least_bad.is_known()) return "";
@@ -575,8 +575,8 @@ std::string Sweep::unheld(std::size_t v) const {
       keeps_least_bad() ? fmt::format("; `wholehand rank {} --least-bad` lists such grips", one_line(names_.result)) : "");
 }
 
-// The same of each list where others of its vessel have grips: of several hand scales. The marks know the nearest grip of a vessel alone, so the
-// finished result is read.
+// The same for each list, if others of its vessel have grips (with several hand scales). The marks only know the nearest grip of a vessel, so this
+// reads the finished result.
 std::vector<std::string> Sweep::unheld_lists(const BestLists& best) const {
   bool is_any = false;
   for (std::size_t list = 0; list < best.size(); ++list) {
@@ -608,10 +608,10 @@ void Sweep::publish(ResultFile& file, BestLists best) {
   }
   file.check_own();
   const auto write_others = [&] { return write_companions(companions(), best, has_heat_map() ? &maps_ : nullptr, info_); };
-  // The result's own name comes last: when it is there, all is. Lists of another order are made of the finished result.
+  // Renames the result last: once it exists, everything does. Lists in another order are made from the finished result.
   std::vector<std::string> files;
   if (has_usual_order()) files = write_others();
-  // The values are synced first. Then little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
+  // Syncs the values first, so that little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
   if (is_marked_) save(file);
   file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
   const bool is_parted = has_shards();

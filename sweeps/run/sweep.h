@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sweep step by step: what one process does from first to last (run_sweep), and what the ranks of a cluster share among them.
+// A sweep step by step: what one process does from start to end (run_sweep), and what the ranks of a cluster share.
 #pragma once
 
 #include <cstdint>
@@ -44,35 +44,34 @@ class Sweep {
   virtual ExitCode run();
 
  protected:
-  // Refuses what it can before any work, meshes unread.
+  // Refuses what it can before any work, with meshes unread.
   void check() const;
-  // Whether there is nothing to resume since the result is complete, and the words for that.
+  // Whether there is nothing to resume because the result is complete, and the message for that.
   bool is_already_complete() const;
   ExitCode report_already_complete() const;
-  // Meshes, warnings, devices: after this plan(), backend_, evaluator_ and facts_ are there. Where parts_ have changed options_.on, and with it the
-  // precision, the room on the disk is checked again.
+  // Handles meshes, warnings and devices: afterwards plan(), backend_, evaluator_ and facts_ exist. If parts_ have changed options_.on, and with it
+  // the precision, checks the disk space again.
   void open();
   void print_header() const;
-  // A note goes to options.note where that is set, and print_text then prints nothing; else to standard error.
+  // A note goes to options.note if that is set, and print_text then prints nothing; otherwise to standard error.
   void note(const std::string& line) const;
   void print_text(const std::string& text) const;
   bool is_quiet() const { return static_cast<bool>(options_.note); }
-  // Sets the progress: from the mark of an earlier sweep if there is one to resume, else nothing done. True: resumed.
+  // Sets the progress: from the mark of an earlier sweep to resume, if there is one, else nothing done. True: resumed.
   bool begin();
-  // Computes a stretch again that the file no longer holds as it was written. False: interrupted. Throws Error (failure) where it comes
-  // out otherwise.
+  // Recomputes a stretch that the file no longer holds as it was written. False: interrupted. Throws Error (failure) if the result differs.
   bool repair_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
-  // Computes a stretch that the file does not hold. Likewise.
+  // Computes a stretch that the file does not hold. The same results.
   bool restore_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
-  // How a note about this process's own work begins, where others work on the same sweep.
+  // The beginning of a note about this process's own work, if others work on the same sweep.
   virtual std::string rank_prefix() const { return ""; }
-  // Everything up to here onto the disk, then the mark that says so.
+  // Syncs everything up to here to the disk, then saves the mark that says so.
   void save(ResultFile& file);
   ExitCode interrupted() const;
-  // Does what follows the last grip. Where that fails the mark has all grips, as far as it can be written.
+  // Does what follows the last grip. If that fails, the mark covers all grips, as far as it can be written.
   void run_and_save_on_failure(ResultFile& file, const std::function<void()>& ending);
-  // The places of the grips of each list; which of them are listed in the end, and their refined grips and robust scores, false where that was
-  // interrupted; and the files, once all is known.
+  // The places of the grips of each list; the final choice with refined grips and robust scores (false if interrupted); and the files, once
+  // everything is known.
   BestLists find_best() const;
   bool choose_best(BestLists& best, InterruptGuard& interrupt) const;
   void publish(ResultFile& file, BestLists best);
@@ -82,13 +81,13 @@ class Sweep {
   Precision precision() const;
   double gate(std::size_t vessel) const;  // gate_tolerance (core/tolerances.h)
   std::map<std::string, std::string> identity() const;
-  bool needs_distinct_grips() const;            // whether the best grips have to differ
+  bool needs_distinct_grips() const;            // whether the best grips must differ
   bool refines() const;                         // whether it searches for better grips near the best ones
-  std::size_t candidates() const;               // grips of a list of which the best are chosen in the end
+  std::size_t candidates() const;               // grips of a list from which the best are finally chosen
   std::size_t pool() const;                     // grips of a list that one pass keeps
-  std::size_t kept_best() const;                // grips of a list that are kept until all grips are there
-  bool skips_hopeless_efforts() const;          // whether efforts are computed only of grips that may still be listed
-  bool ranks_here() const;                      // whether the best are found from scores that are read back, and not by the backend
+  std::size_t kept_best() const;                // grips of a list that are kept until all grips have come
+  bool skips_hopeless_efforts() const;          // whether only grips that may still be listed get efforts
+  bool ranks_here() const;                      // whether the best are found from scores read back, not by the backend
   bool has_field(int field) const;              // whether it is read back
   bool has_heat_map() const;                    // whether scores and status are read back, and the score is wanted
   ListRequest list_request() const;             // of the best grips
@@ -98,7 +97,7 @@ class Sweep {
   bool is_time_up() const;                      // the sweep's time limit has passed
   bool is_asked_to_end(InterruptGuard&) const;  // by a signal, or by the time limit
   bool is_mark_due() const;
-  RunRequest grips_of(std::size_t vessel, InterruptGuard& interrupt) const;   // all but what is done with them
+  RunRequest grips_of(std::size_t vessel, InterruptGuard& interrupt) const;   // everything but what is done with them
   void note_once(const std::vector<std::string>& notes, Progress* progress);  // which may be null
   static void choose_from_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose = {});
 
@@ -107,24 +106,24 @@ class Sweep {
   const SweepParts& parts_;
   OutputNames names_;
   std::size_t best_wanted_;
-  RankBy by_;  // what the lists that are shown and written are ranked by
+  RankBy by_;  // the criterion of the shown and written lists
   std::vector<const Variable*> variables_;
   std::optional<Plan> plan_;
   std::unique_ptr<Backend> backend_;
   BackendInfo info_;                      // the backend's
-  BackendInfo identified_;                // the same as a mark has it: of ranks without how many there are
-  std::unique_ptr<Evaluator> evaluator_;  // that poses and refines the best grips; null where neither is asked for
+  BackendInfo identified_;                // the same as in a mark: for ranks without their number
+  std::unique_ptr<Evaluator> evaluator_;  // poses and refines the best grips; null if neither is requested
   std::vector<VesselFacts> facts_;
   std::vector<HeatMap> maps_;  // one per vessel
   SweepMark mark_;
-  bool is_marked_ = false;   // there is a mark of this sweep
+  bool is_marked_ = false;   // a mark of this sweep exists
   ChecksumParts checksums_;  // of the result, as far as ranks have found some
-  double wait_seconds_ = 0;  // in the backend, less what it spent in the sink
+  double wait_seconds_ = 0;  // in the backend, without its time in the sink
   double kernel_seconds_ = 0;
 
  private:
   void check_room() const;       // on the disk
-  bool has_usual_order() const;  // or the lists are ranked by another key in the end
+  bool has_usual_order() const;  // or the lists are finally ranked by another key
   Ranking rank_finished(const RankRequest& request) const;
   CompanionRequest companions() const;
   std::vector<int> swept_fields() const;
@@ -150,8 +149,8 @@ class Sweep {
   double mark_interval_;
   double last_mark_ = 0;  // s of the clock
   std::set<std::string> noted_;
-  std::vector<double> score_cache_;  // scores of the vessel under way; NaN: not eligible. Empty: not kept
-  std::uint64_t cached_count_ = 0;   // grips whose outcome is in there
+  std::vector<double> score_cache_;  // scores of the current vessel; NaN: not eligible. Empty: not kept
+  std::uint64_t cached_count_ = 0;   // grips whose outcome is included
 };
 
 }  // namespace wholehand

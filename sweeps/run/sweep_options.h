@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of a sweep beside its scene.
+// Options of a sweep, besides its scene.
 #pragma once
 
 #include <cstddef>
@@ -20,33 +20,33 @@ struct SweepOptions {
   std::string on = "vulkan";           // see open_backend; ON_AUTO (sweeps/run/auto_backend.h) for run_sweep of a scene
   std::optional<Precision> precision;  // absent: double on the core, float elsewhere
   std::optional<int> best;             // absent: the scene's
-  int glb = 0;                         // so many of the best of each vessel are written as glTF
+  int glb = 0;                         // this many of the best of each vessel are written as glTF
   bool resume = false;
   bool explain = false;
-  ListView list = {};  // what is printed of each list; `by` is not read
+  ListView list = {};  // how each list is printed; `by` is not read
   std::string rank_by =
-      {};              // what the lists are ranked by, as of read_rank_by; the result's best grips always have the usual order
+      {};              // the criterion of the lists, as from read_rank_by; the result's best grips always have the usual order
   bool refine = true;  // the best grips, see sweeps/lists/refine.h
   int threads = 0;     // of the core, 0: all
-  // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.
+  // Called once meshes are read: tells the user about the scene in that precision. May be empty.
   std::function<void(const Scene&, Precision)> warn = {};
-  // Takes the notes beside the work, a line each. Where it is set, the sweep is part of another program: nothing is printed, and no progress is
-  // shown. Empty: notes go to standard error.
+  // Takes the notes of the work, a line each. If it is set, the sweep is part of another program: it prints nothing and shows no progress. Empty:
+  // notes go to standard error.
   std::function<void(const std::string&)> note = {};
-  // What the backend that was not chosen would take; completes the sentence of backend_line. Empty unless `on` was ON_AUTO.
+  // The time of the backend that was not chosen; completes the sentence of backend_line. Empty unless `on` was ON_AUTO.
   std::string alternative = {};
   std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/lists/list_chooser.h); 0: usual_pool
-  // Scores of one vessel's grips that are kept for further passes, 8 B each; of more grips each pass evaluates all of them again.
+  // Scores of one vessel's grips that are kept for further passes, 8 B each; with more grips each pass evaluates all of them again.
   std::size_t cached_scores = std::size_t{1} << 22;
   double time_limit = 0;    // s after `started` at which the sweep ends as if interrupted; 0: none
-  double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
+  double mark_seconds = 5;  // least time between two progress marks: the most that a crash may cost
   // For machines without a shared file system: those with the same name write into one file; empty: those of a node. Absent: all into one.
   std::optional<std::string> shards = {};
-  double piece_seconds = 2;          // what a rank of a cluster takes at a time, at least
-  double started = monotonic_now();  // s of the clock: when the work was asked for, for the closing lines
+  double piece_seconds = 2;          // least number of grips that a rank of a cluster takes at a time
+  double started = monotonic_now();  // s of the clock: when the work was requested, for the closing lines
 };
 
-// NAME.nc for a scene file when the user names none.
+// NAME.nc for a scene file if the user names none.
 std::string default_output(const Scene& scene);
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep writes beside its result: pictures, the list of the best grips, and those as glTF.
+// Writes the files beside a result: pictures, the list of the best grips, and those as glTF.
 #pragma once
 
 #include <cstddef>
@@ -24,15 +24,14 @@ struct CompanionRequest {
   const SweepParts& parts;
   std::size_t best = 0;                          // grips of each list
   int glb = 0;                                   // of them as glTF
-  std::function<void(const std::string&)> note;  // takes what else there is to say, a line each
+  std::function<void(const std::string&)> note;  // takes further notes, a line each
 };
 
-// Sets by the core whatever is known of the grips of each list beside their places, scores, refinements and robust scores. A device would have to
-// compile kernels with more outputs, for a few grips.
+// Completes the figures of the grips of each list by the core, except places, scores, refinements and robust scores. A device would have to compile
+// kernels with more outputs, for a few grips.
 void describe_best(const CompanionRequest& request, std::vector<std::vector<BestGrip>>& lists);
 
-// Answers the names of the files, as the closing lines have them. `maps` null: the score is not kept, and there are none. `info`: the
-// sweep's.
+// Returns the names of the files, as the closing lines show them. `maps` null: the score is not kept, and there are none. `info`: the sweep's.
 std::vector<std::string> write_companions(const CompanionRequest& request, const std::vector<std::vector<BestGrip>>& best,
                                           const std::vector<HeatMap>* maps, const BackendInfo& info);
 

@@ -69,7 +69,7 @@ struct Arrived {
 Arrived read_message(lo_message message, const char* address) {
   Arrived arrived{address, lo_message_get_types(message), {}, {}, {}};
   for (int k = 0; k < lo_message_get_argc(message); ++k) {
-    // liblo's arguments lie where the packet has them, aligned to four bytes and not as its type asks
+    // liblo reads arguments in place, aligned to four bytes in the packet instead of as their type requires
     const void* value = lo_message_get_argv(message)[k];
     if (arrived.types[k] == 'i') std::memcpy(&arrived.ints.emplace_back(), value, 4);
     if (arrived.types[k] == 'f') std::memcpy(&arrived.floats.emplace_back(), value, 4);

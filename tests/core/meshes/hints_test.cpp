@@ -118,7 +118,7 @@ LoadedMesh load(const TemporaryFolder& folder, const TriangleMesh& mesh, const s
 TEST(MeshHints, AnOpenSideThatIsNotUpIsNamedWithTheKeyThatRaisesIt) {
   const TemporaryFolder folder;
   struct Case {
-    Triple turn;  // after which the open side, which is up, faces
+    Triple turn;  // the direction that then faces the open side, which is up
     const char* side;
   };
   for (const Case& each : {Case{{radians(90), 0, 0}, "+z"}, Case{{radians(-90), 0, 0}, "-z"}, Case{{0, 0, radians(-90)}, "+x"},

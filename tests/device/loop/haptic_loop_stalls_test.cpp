@@ -63,7 +63,7 @@ TEST(HapticLoop, AfterAStallTheFirstForceIsZero) {
       ASSERT_GT(after, 0u);
       EXPECT_FALSE(is_zero(run.gripper.written[after - 1]));
       EXPECT_TRUE(is_zero(run.gripper.written[after]));
-      // the numbers say so too, for a replay
+      // the tick numbers show it too, for a replay
       EXPECT_GE(static_cast<double>(run.sunk[after].number - run.sunk[after - 1].number) / rate, STALL);
     }
   }

@@ -76,7 +76,7 @@ TEST(SessionReport, FollowingANormalForceThatFallsIsNotComplex) {
   EXPECT_NEAR(grasp.turning_back, 0, 1e-9);
 }
 
-// At F_max the gripper clamps: what the grip force then seems to do is not the user's doing.
+// At F_max the gripper clamps, so the user does not cause the apparent changes of the grip force.
 TEST(SessionReport, WhatSaturatesWhileItIsTiltedHasNoType) {
   const auto grip = [](double) { return 3.0; };
   const auto normal = [](double x) { return linear_between(x, 0.8, 2); };

@@ -48,7 +48,7 @@ double least_separation(const LiveScene& live, const VesselPoses& poses, const H
   return least;
 }
 
-// The gripper's axes of a grip in the frame of its vessel (the sweeps' hand, as PlaceLiveHand.IsTheSweepsHand has it).
+// The gripper's axes of a grip in its vessel's frame (the sweeps' hand, as in PlaceLiveHand.IsTheSweepsHand).
 Mat3 gripper_of(const GripInput& grip) {
   const Vec3 d = core_f64::grip_direction(grip.azimuth, grip.obliquity);
   const Vec3 down = glm::normalize(Vec3(0, -1, 0) + d.y * d), side = glm::cross(d, down);

@@ -35,7 +35,7 @@ TEST(Session, LosesNoLiquid) {
       ASSERT_LE(liquid_in_sight(tick, 0), whole + 1e-15);
       ASSERT_GE(tick.flow, 0);
       flowed += tick.flow * 1e-3;
-      // what left the lip is in the air, arrived or spilt
+      // liquid that left the lip is in the air, arrived or spilled
       ASSERT_NEAR(whole - tick.volume[0], flowed, 1e-12);
       if (tick.tilt == 0 && is_held(tick.state)) {
         EXPECT_EQ(tick.flow, 0);

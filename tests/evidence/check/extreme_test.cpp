@@ -65,7 +65,7 @@ core_f64::HandStrength scene_strength(const AnsweredScene& a, std::size_t v, std
   return core_f64::load_strength(a.scene, a.result(v, i));
 }
 
-// Prices of 1e6, or as much times as the digits differ in strength, each rounded by 1e-16.
+// Prices of 1e6, or of the ratio of the digits' strengths, each rounded by 1e-16.
 constexpr double EFFORT_ROUNDED = 1e-6;
 
 // ---- expected results, scene by scene, of the core in double ----

@@ -107,7 +107,7 @@ TEST(TrialWeights, FindsTheModelOfManyGrips) {
   for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k) EXPECT_NEAR(weights_of(fit)[k], truth[k] / 12, 0.02) << k;
 }
 
-// Grips whose first term is small cannot be tried. So that term predicts who holds, though among tried grips it predicts nothing.
+// Grips whose first term is small cannot be tried. So that term predicts which grips hold, though among tried grips it predicts nothing.
 TEST(TrialWeights, DiscardedGripsAreFailuresOfTheFit) {
   auto grips = drawn_grips(400, {0, 0, 0, 0, 0, 8}, -4, 41);
   EXPECT_TRUE(try_weights(grips, {1, 0, 0, 0, 0, 0}, 1).fit.is_least[0])

@@ -156,7 +156,7 @@ TEST(ResultFile, FileSizeLimitIsFoundBeforeTheFirstGrip) {
     setup.open();
     stat((folder / "size.nc.partial").c_str(), &status);
   }
-  // nothing of the structure fits, a part of it, almost all
+  // in turn: nothing, a part, or almost all of the structure remains
   for (const rlim_t limit : {rlim_t{100}, rlim_t{20000}, static_cast<rlim_t>(status.st_size - 1)}) {
     EXPECT_EQ(in_child([&] {
                 std::signal(SIGXFSZ, SIG_IGN);
