@@ -59,7 +59,7 @@ unpack() {
   done
   wait
   chmod +x "$work"/bin/*
-  ln -s "$here/scene" "$work/scene"
+  ln -s "$here/examples" "$work/examples"
   start=(env "LD_LIBRARY_PATH=$work/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}")
   "${start[@]}" "$work/bin/wholehand" --version >/dev/null 2>&1 ||
     start=("$work/bin/${loader[0]##*/}" --library-path "$work/base:$work/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}")
