@@ -79,19 +79,19 @@ class Checking {
   void add(std::size_t v, const std::vector<GripInput>& grips, const std::function<void()>& done) {
     const GatheredPlanes single = gather(*core_float_, fields_, v, grips), full = gather(*core_, fields_, v, grips);
     const GatheredPlanes device = gather(*on_float_, v, grips);
-    translation_.add(v, grips, device, single);
+    translation_.add(v, grips, device, single, full);
     done();
-    cost_.add(v, grips, single, full);
+    cost_.add(v, grips, single, full, full);
     done();
     if (on_double_) {
-      exact_.add(v, grips, gather(*on_double_, v, grips), full);
+      exact_.add(v, grips, gather(*on_double_, v, grips), full, full);
       done();
     }
     const bool has_liquid = !scene_.tilts.empty();
     const auto liquid_float = core_liquid(scene_, *core_float_, v), liquid = core_liquid(scene_, *core_, v);
     if (has_liquid) translation_.add_liquid(v, on_float_->liquid(v), liquid_float);
     if (!translation_.outliers().empty()) {  // whose fault that is
-      float_device_.add(v, grips, device, full);
+      float_device_.add(v, grips, device, full, full);
       if (has_liquid) float_device_.add_liquid(v, on_float_->liquid(v), liquid);
     }
     if (!has_liquid) return;

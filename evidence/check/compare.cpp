@@ -240,14 +240,17 @@ struct Comparer::Spread {
   std::vector<char> undecided, may_graze;
 };
 
+void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b) {
+  add(vessel, grips, a, b, gather(core_, a.fields, vessel, grips));
+}
+
 void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& side_a,
-                   const GatheredPlanes& side_b) {
-  GatheredPlanes a = side_a, b = side_b;
+                   const GatheredPlanes& side_b, const GatheredPlanes& own) {
+  GatheredPlanes a = side_a, b = side_b, truth = own;
   to_compared_form(a);
   to_compared_form(b);
   const FieldSet& fields = a.fields;
   const std::size_t n = grips.size();
-  GatheredPlanes truth = gather(core_, fields, vessel, grips);
   to_compared_form(truth);
   std::vector<double> floors(FIELDS, 0.0);
   for (int field = 0; field < REAL_FIELDS; ++field)

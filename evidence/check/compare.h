@@ -95,6 +95,9 @@ class Comparer {
   // counted. So are those whose discrete outcomes differ while the core's own change within the allowance (excluded). Other differing ones count as
   // outside.
   void add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b);
+  // `truth`: the core's own answers, with the same fields, from a caller that has them.
+  void add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
+           const GatheredPlanes& truth);
   void add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b);
 
   const std::vector<Comparison>& rows() const { return rows_; }

@@ -182,7 +182,7 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
   Agreement agreement;
   const GatheredPlanes of_file = planes_of_file(source, vessel, places, by_core, agreement.outcomes);
   Comparer comparer(scene, *core, allowance(source.result.origin().precision));
-  comparer.add(0, grips, of_file, by_core);
+  comparer.add(0, grips, of_file, by_core, by_core);
   for (const Comparison& row : comparer.rows()) {
     if (row.kernel == "whole") {
       agreement.flipped = row.outside;
