@@ -91,8 +91,9 @@ constexpr std::int64_t force_turns(int states) { return loop_turns(states, loop_
 constexpr std::int64_t score_turns(int fills) { return loop_turns(fills) + loop_turns(6); }
 static_assert(force_turns(STATES_IN_BLOCK) <= TURN_BUDGET);
 
-// ---- efforts and reserves ---- A pivot's: the loop over pivots, the one that finds the next state to solve, and three loops of a single turn.
-// Beside them states that a lane passes by, and what a lane looks through by itself: all lanes of a vector may do so at different times.
+// ---- efforts and reserves ----
+// A pivot's: the loop over pivots, the one that finds the next state to solve, and three loops of a single turn. Beside them states that a lane
+// passes by, and what a lane looks through by itself: all lanes of a vector may do so at different times.
 constexpr int PIVOT_TURNS = 1 + 1 + 1 + 3 * 2;
 constexpr std::int64_t effort_turns(int fills) {
   return loop_turns(EFFORT_TURNS, PIVOT_TURNS - 1) + MOST_LANES * (STATES_IN_BLOCK + DEVICE_RISES * loop_turns(STATES_IN_BLOCK)) +

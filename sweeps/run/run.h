@@ -9,8 +9,7 @@
 namespace wholehand {
 
 // Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv, NAME.<vessel>.svg and NAME.<vessel>.<rank>.glb; prints the device, the best grips
-// and counts
-// of every vessel, and the times to stdout, notes and progress to stderr. Returns `done`, or `interrupted` after SIGINT or SIGTERM
+// and counts of every vessel, and the times to stdout, notes and progress to stderr. Returns `done`, or `interrupted` after SIGINT or SIGTERM
 // with NAME.nc.partial left for --resume. Throws Error.
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options);
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // No kernel takes more turns of loops than every driver grants, and what would take more is the core's. A meter after each kernel (meter.glsl)
-// measures
-// what a driver counts that ends loops after so many, which llvmpipe does. On every other the meter must measure 0.
+// measures what a driver counts that ends loops after so many, which llvmpipe does. On every other the meter must measure 0.
 // sanitizers: none
 #include "host/turns.h"
 
@@ -300,8 +299,7 @@ TEST(Turns, EffortsEndWithinTheirBounds) {
 }
 
 // Whole hands with as many spheres as there may be. A step that never ends near the wall takes all its turns, and an outline of the largest size in a
-// loop
-// leaves few.
+// loop leaves few.
 TEST(Turns, GripsEndWithinTheirBounds) {
   Scene scene = scene_of({belly_of(MAX_OUTLINE)});
   scene.hand.between = MOST_BETWEEN;

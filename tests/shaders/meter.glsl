@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How many turns of loops are left to an invocation after kernel(), of METER_TURNS: a driver that ends loops after so many ends this one early. A
-// shader
-// of the program becomes such a kernel where main is defined as kernel; this file then follows it.
+// shader of the program becomes such a kernel where main is defined as kernel; this file then follows it.
 #ifndef METER_GLSL
 #define METER_GLSL
 

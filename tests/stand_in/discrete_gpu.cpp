@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A Vulkan layer that shows lavapipe as a discrete GPU: queue families of their own for graphics, for compute and for copies, in place of one for
 // all, few allocations of memory, and no patience: a submit of more than one dispatch loses the device. It lies under the validation layer, which
-// then
-// sees what a command buffer of each family may hold.
+// then sees what a command buffer of each family may hold.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 

@@ -165,8 +165,7 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
 }
 
 // On the machine's clock. Both sides let go: the host's read says so within its patience, the device by its watchdog of 200 ms, which stays tripped
-// for
-// this session and not for the next.
+// for this session and not for the next.
 template <class Open>
 void check_silence(MockGripper& mock, const Open& open) {
   std::unique_ptr<Gripper> gripper = open();

@@ -51,8 +51,7 @@ Axis axis_of(double from, double to, int count);
 Scene three_beakers();  // the default scene with a quarter of its grips, and without hand, table, arm, strengths and deviations
 void take_few_grips(Scene& wet);  // 1,728 of each vessel, brim-full, at 0 and 60 degrees: they are several chunks
 // A scene with these vessels and hand (the paper's, for which many tests know numbers), the default in everything else: no liquid, no tilts; the hand
-// is its 24 points
-// alone, without spheres between them.
+// is its 24 points alone, without spheres between them.
 Scene scene_of(std::vector<VesselData> vessels, Pose pose = Pose::articulated, const HandData& hand = paper_hand());
 
 // ---- made ready for core_f64 ----
