@@ -7,6 +7,11 @@
 #include "core/trig.h"
 
 namespace CORE_NS {
+namespace {
+
+constexpr int LEVEL_STEPS = 64;  // safeguarded Newton steps of the level
+
+}  // namespace
 
 // r^2 theta - |h| sqrt(r^2 - h^2) with theta = acos(|h| / r) computed from the segment's own height r - |h|, because acos near 1 would lose half the
 // digits. The rest of the disc for h < 0, the whole for h <= -r, nothing for h >= r.

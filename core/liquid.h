@@ -5,9 +5,15 @@
 
 #include <array>
 
+#include "core/prepared.h"
 #include "core/sdf.h"
 
 namespace CORE_NS {
+
+constexpr int WHOLE_DEGREES = 181;  // tilts 0..180 at which the lip's capacity is tabulated
+constexpr Real LEVEL_TOLERANCE = Real(SINGLE ? wholehand::LEVEL_TOLERANCE_F32 : wholehand::LEVEL_TOLERANCE_F64);
+constexpr Real UPRIGHT_SINE =
+    SINGLE ? Real(1e-5) : Real(1e-9);  // sine of the tilt under which the free surface is level in the vessel frame
 
 // Gauss-Legendre in the angle of a cosine map: y = middle - half cos(theta), theta in [0, pi]. `weight` holds the rule's weight times
 // sin(theta) pi / 2. Filled by core/prepare.h.
@@ -24,7 +30,7 @@ struct Slices {
 };
 
 // Liquid at rest: m3 and its center of mass along n and y, m. Its surface, if any, is the plane u . p = level (u: up, in the vessel frame),
-// m; for drawings, absent in the shaders.
+// m.
 struct LiquidState {
   Real volume = 0, lean = 0, height = 0;
   Real level = 0;

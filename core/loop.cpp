@@ -5,6 +5,13 @@
 #include <cmath>
 
 namespace CORE_NS {
+namespace {
+
+constexpr int ORDER = 10;        // of the propagator's series
+constexpr int DOUBLINGS = 48;    // of its step: 2e12 of the fastest time constants
+constexpr int NEWTON_STEPS = 3;  // to where the motion stops
+
+}  // namespace
 
 // x' = A x + B f with A = [0 1; -k/m -b/m], B = [0; 1/m]:
 //   Phi(h) = sum (A h)^n / n!,  Gamma(h) = h sum (A h)^n / (n + 1)! B
@@ -14,14 +21,14 @@ Propagator propagator(Plant plant, Real time) {
   Real fastest = std::sqrt(std::abs(pull)) + std::abs(drag);
   Real h = time;
   int doublings = 0;
-  while (fastest * h > Real(0.125) && doublings < LOOP_DOUBLINGS) {
+  while (fastest * h > Real(0.125) && doublings < DOUBLINGS) {
     h *= Real(0.5);
     ++doublings;
   }
   // Horner's scheme for both series: P = I + A h / n P
   Real pp = 1, ps = 0, sp = 0, ss = 1;      // of Phi
   Real gpp = 1, gps = 0, gsp = 0, gss = 1;  // of Gamma
-  for (int n = LOOP_ORDER; n > 0; --n) {
+  for (int n = ORDER; n > 0; --n) {
     Real scale = h / Real(n), next = h / Real(n + 1);
     Real a = 1 + scale * sp, b = scale * ss;
     Real c = -scale * (pull * pp + drag * sp), d = 1 - scale * (pull * ps + drag * ss);
@@ -89,7 +96,7 @@ Motion advance_with_friction(Plant plant, Propagator whole, Motion motion, Real 
     // where the speed passes 0: Newton from the chord
     Real at = left * motion.speed / (motion.speed - next.speed);
     Motion there = motion;
-    for (int k = 0; k < LOOP_NEWTON; ++k) {
+    for (int k = 0; k < NEWTON_STEPS; ++k) {
       there = advance(propagator(plant, at), motion, drive);
       Real slope = (drive - plant.stiffness * there.place - plant.damping * there.speed) / plant.mass;
       if (slope != 0) at = std::min(std::max(at - there.speed / slope, Real(0)), left);

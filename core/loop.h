@@ -6,8 +6,12 @@
 #include <array>
 
 #include "core/real.h"
+#include "core/wall_case.h"
 
 namespace CORE_NS {
+
+using wholehand::LOOP_DELAYS, wholehand::LOOP_STOPS;
+using wholehand::LOOP_EXACT, wholehand::LOOP_EULER, wholehand::LOOP_SEMI_IMPLICIT;
 
 // Device and finger combined: mass x'' + damping x' + stiffness x = force, with the finger's spring at rest at 0.
 struct Plant {
@@ -46,7 +50,7 @@ struct LoopState {
 
 // By scaling and squaring of the series: steps of at most 1/8 of the fastest mode, to the tenth order (3e-16 of a step), doubled.
 Propagator propagator(Plant plant, Real time);
-// The same by Euler's method with equal sub-steps, explicit or semi-implicit (LOOP_* of layout.h), to show what an integrator does to the plant.
+// The same by Euler's method with equal sub-steps, explicit or semi-implicit (LOOP_*), to show what an integrator does to the plant.
 Propagator stepped_propagator(Plant plant, Real time, int integrator, int substeps);
 Motion advance(Propagator by, Motion motion, Real force);
 // The same with Coulomb friction (N). The motion is followed to where it stops, at most LOOP_STOPS times in `time`. From there it reverses, or stays

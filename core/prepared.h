@@ -52,6 +52,9 @@ struct PreparedLattice {
   std::shared_ptr<const std::vector<std::uint32_t>> words;  // core/lattice.h
 };
 
+constexpr double LEVEL_TOLERANCE_F64 = 1e-12, LEVEL_TOLERANCE_F32 = 1e-6;  // of the capacity: liquid level
+constexpr int QUADRATURE_POINTS = 32;  // a piece of a cavity: 1e-10 of the capacity if the plane passes close to an arc's pole
+
 // Gauss-Legendre of `points` on a cosine map: cosines of the angles and weights times sin(theta) pi / 2.
 struct PreparedQuadrature {
   std::vector<double> cosine, weight;

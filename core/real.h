@@ -29,8 +29,6 @@ constexpr bool SINGLE = sizeof(Real) == sizeof(float);
 constexpr Real STOP_TOLERANCE = SINGLE ? Real(STOP_TOLERANCE_F32) : Real(STOP_TOLERANCE_F64);
 constexpr Real DEGENERATE_SINE = SINGLE ? Real(DEGENERATE_SINE_F32) : Real(DEGENERATE_SINE_F64);
 constexpr Real HALF_PI = Real(1.5707963267948966192313216916397514L);
-constexpr Real LEVEL_TOLERANCE = SINGLE ? Real(LEVEL_TOLERANCE_F32) : Real(LEVEL_TOLERANCE_F64);
-constexpr Real UPRIGHT_SINE = SINGLE ? Real(UPRIGHT_SINE_F32) : Real(UPRIGHT_SINE_F64);
 constexpr Real NO_DISTANCE = std::numeric_limits<Real>::max();
 
 // Where iterations end: the named values, or others that measure their cost.

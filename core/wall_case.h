@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A rendered wall to test: plain numbers, for core and device alike; SI.
+// A rendered wall to test: plain numbers, SI.
 #pragma once
 
-#include "shaders/layout.h"
-
 namespace wholehand {
+
+constexpr int LOOP_DELAYS = 4;  // largest delay of a haptic loop, in whole samples
+constexpr int LOOP_STOPS = 4;   // reversals within a sample for which friction is followed
+
+// How the motion between two samples is integrated.
+constexpr int LOOP_EXACT = 0;
+constexpr int LOOP_EULER = 1;          // explicit, at equal sub-steps
+constexpr int LOOP_SEMI_IMPLICIT = 2;  // the place by the new speed
 
 struct WallCase {
   double mass = 0.1, damping = 1, spring = 0;  // the plant: device and finger, kg, N s/m, N/m

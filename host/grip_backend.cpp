@@ -68,7 +68,7 @@ struct GripBackend::Impl {
         arrays(make_scene_arrays(scene, *core, options.evaluator)),
         mirrored(mirrored_planes(scene, fields)),
         of_core(fields_of_core(scene, fields)),
-        stream([this, selector] { return std::make_unique<GripProgram>(scene, arrays, *core, fields, selector, options); },
+        stream([this, selector] { return std::make_unique<GripProgram>(scene, arrays, fields, selector, options); },
                with_select_multiple(options.stream)) {
     info.backend = "vulkan";
     info.device = program().on.info().name;
@@ -367,14 +367,14 @@ RunResult GripBackend::run(const RunRequest& request) {
   return impl_->options.precision == Precision::single ? impl_->run<float>(request) : impl_->run<double>(request);
 }
 
-std::vector<LiquidResult> GripBackend::liquid(std::size_t vessel) { return impl_->program().vessels[vessel].liquid; }
+std::vector<LiquidResult> GripBackend::liquid(std::size_t vessel) { return impl_->arrays.vessels[vessel].liquid; }
 
 bool GripBackend::use_fills_of(const Scene& other) {
   if (!have_like_fills(impl_->scene, other)) return false;
   take_fills(impl_->scene, other);
   impl_->core = make_core_evaluator(impl_->scene, impl_->options.evaluator);
   impl_->arrays = make_scene_arrays(impl_->scene, *impl_->core, impl_->options.evaluator);
-  impl_->program().write_fills(impl_->scene, impl_->arrays, *impl_->core, impl_->options);
+  impl_->program().write_fills(impl_->scene, impl_->arrays);
   return true;
 }
 
@@ -383,7 +383,6 @@ GripPipelines GripBackend::pipelines(std::size_t vessel) const {
   GripPipelines made;
   made.outline = program.vessels[vessel].outline_source;
   made.force = program.force.has_value();
-  made.liquid = !program.vessels[vessel].liquid.empty();
   made.real_planes = impl_->fields.real_planes;
   made.uint_planes = impl_->fields.uint_planes;
   return made;
@@ -398,9 +397,9 @@ std::size_t GripBackend::bytes_per_grip() const {
 
 std::size_t GripBackend::table_bytes() const {
   const GripProgram& program = impl_->program();
-  std::size_t bytes = program.hand.size() + program.tilts.size() + program.quadrature.size();
+  std::size_t bytes = program.hand.size();
   for (const VesselOnDevice& vessel : program.vessels) {
-    bytes += vessel.parameters.size() + vessel.outline.size() + vessel.lattice.size() + vessel.fills.size();
+    bytes += vessel.parameters.size() + vessel.outline.size() + vessel.lattice.size();
     for (const auto* blocks : {&vessel.states, &vessel.worst_states, &vessel.safe_states})
       for (const Buffer& states : *blocks) bytes += states.size();
   }

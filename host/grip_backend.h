@@ -15,7 +15,7 @@ namespace wholehand::host {
 // What the backend omitted because the scene does not need it, and how it reads the outline; for `--explain`.
 struct GripPipelines {
   OutlineSource outline = OUTLINE_COPIED;
-  bool force = false, liquid = false;
+  bool force = false;
   int real_planes = 0, uint_planes = 0;  // per grip, kept and scratch
 };
 
@@ -31,14 +31,14 @@ class GripBackend final : public Backend {
   const FieldSet& fields() const override;
   RunResult run(const RunRequest& request) override;
   std::vector<LiquidResult> liquid(std::size_t vessel) override;
-  // Computes the vessels' liquid again; the device and its pipelines stay. Not during a run.
+  // Computes the vessels' liquid again, on the core; the device and its pipelines stay. Not during a run.
   bool use_fills_of(const Scene& other) override;
 
   GripPipelines pipelines(std::size_t vessel) const;
   const DeviceInfo& device() const;
   // Bytes of a chunk's buffers per grip: inputs and planes.
   std::size_t bytes_per_grip() const;
-  // Bytes on the device that all grips share: outlines or lattices, hand, states, quadrature.
+  // Bytes on the device that all grips share: outlines or lattices, hand, states.
   std::size_t table_bytes() const;
 
   struct Impl;

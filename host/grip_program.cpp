@@ -10,7 +10,6 @@
 #include "base/system/clock.h"
 #include "core/touch.h"
 #include "host/compile.h"
-#include "host/run_once.h"
 #include "host/turns.h"
 
 namespace wholehand::host {
@@ -31,12 +30,6 @@ Buffer upload(const Device& device, Precision precision, const std::vector<doubl
 Buffer upload(const Device& device, Precision precision, const Parameters<double>& parameters) {
   if (precision == Precision::single) return Buffer::of(device, std::vector<Parameters<float>>{convert<float>(parameters)});
   return Buffer::of(device, std::vector<Parameters<double>>{parameters});
-}
-
-std::vector<double> download(const Buffer& buffer, Precision precision, std::size_t count) {
-  if (precision == Precision::full) return buffer.read_as<double>(count);
-  const auto values = buffer.read_as<float>(count);
-  return {values.begin(), values.end()};
 }
 
 std::vector<Constant> common_constants() { return {{CONST_GROUP_SIZE, std::uint32_t(GROUP_SIZE)}}; }
@@ -87,10 +80,6 @@ void add_limits(std::vector<Constant>& constants, const DeviceSteps& steps, cons
 // See force.comp. Eight grips are as fast as four, and two take 1.06 times as long for the whole of grips and forces (docs/results).
 constexpr std::uint32_t FORCES_TOGETHER_ON_CPU = 4;
 
-// States of the liquid in a dispatch: a small GPU has them at work at once, so it takes no longer than one of them (host/step_recorder.h).
-constexpr std::uint32_t LIQUID_PIECE = 1024;
-static_assert(LIQUID_PIECE % GROUP_SIZE == 0);
-
 bool is_off_axis(const VesselArrays& vessel) { return vessel.parameters.center_x != 0 || vessel.parameters.center_z != 0; }
 
 std::size_t real_size(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
@@ -123,8 +112,8 @@ struct GripProgram::GripKernel {
   bool operator==(const GripKernel&) const = default;
 };
 
-GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& asked,
-                         const std::string& selector, const GripBackendOptions& options)
+GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const FieldSet& asked, const std::string& selector,
+                         const GripBackendOptions& options)
     : on(selector, options.device),
       vessels(scene.vessels.size()),
       fields(with_handed_on(asked, scene)),
@@ -145,8 +134,6 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   fill_count = static_cast<std::uint32_t>(scene_fills(scene));
   tilt_count = static_cast<std::uint32_t>(scene.tilts.size());
   hand = upload(on, options.precision, arrays.hand);
-  quadrature = upload(on, options.precision, arrays.quadrature);
-  tilts = upload(on, options.precision, arrays.tilts);
 
   std::vector<Constant> constants = common_constants();
   add_planes(constants, fields);
@@ -204,7 +191,6 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   const auto make = [&](std::optional<Kernel>& kernel, const char* name, const std::vector<Constant>& values) {
     request(name, OUTLINE_NONE, values, 0, [&kernel](Kernel&& made) { kernel.emplace(std::move(made)); });
   };
-  const std::vector<Constant> common = common_constants();
   if (has_efforts_) {
     for (auto& [kernel, name, task] : efforts) {
       std::vector<Constant> values = constants;
@@ -214,11 +200,6 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
       if (tolerance > 0) add_real(values, CONST_EFFORT_TOLERANCE, tolerance, options.precision);
       make(*kernel, name, values);
     }
-  }
-  const bool wet = scene.liquid && tilt_count > 0;
-  if (wet) {
-    make(lip, "lip", common);
-    make(liquid, "liquid", common);
   }
   if (tilt_count > 0 && fields.has(FIELD_PEAK_FORCE)) make(force, "force", constants);
   make(score, "score", constants);
@@ -231,14 +212,13 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
     for (const GripKernel& kernel : grips[v])
       for (std::size_t other = 0; !(vessels[v].*kernel.place); ++other)
         if (std::ranges::find(grips[other], kernel) != grips[other].end()) vessels[v].*kernel.place = vessels[other].*kernel.place;
-  for (std::size_t v = 0; wet && v < vessels.size(); ++v) make_liquid(v, scene, arrays, core, options);
 }
 
 std::vector<const Kernel*> GripProgram::kernels() const {
   std::set<const Kernel*> made;
   for (const VesselOnDevice& vessel : vessels)
     for (const auto& kernel : {vessel.closure, vessel.rest, vessel.contact, vessel.overlap}) made.insert(kernel.get());
-  for (const auto* kernel : {&force, &score, &select, &lip, &liquid, &worst_effort, &tips_effort, &push_reserve, &friction_reserve})
+  for (const auto* kernel : {&force, &score, &select, &worst_effort, &tips_effort, &push_reserve, &friction_reserve})
     made.insert(*kernel ? &**kernel : nullptr);
   made.erase(nullptr);
   return {made.begin(), made.end()};
@@ -257,8 +237,7 @@ void GripProgram::upload_vessel(std::size_t v, const Scene& scene, const SceneAr
   vessel.parameters = upload(on, options.precision, from.parameters);
   vessel.outline = upload(on, options.precision, outline);
   vessel.lattice = Buffer::of(on, from.lattice ? *from.lattice : std::vector<std::uint32_t>(4));
-  vessel.fills = upload(on, options.precision, from.fills);
-  upload_states(v, scene, arrays, from.dry_loads);  // none where there is liquid
+  upload_states(v, scene, arrays);
 }
 
 void GripProgram::write_parameters(const SceneArrays& arrays) {
@@ -272,14 +251,9 @@ void GripProgram::write_parameters(const SceneArrays& arrays) {
   }
 }
 
-void GripProgram::write_fills(const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
-                              const GripBackendOptions& options) {
+void GripProgram::write_fills(const Scene& scene, const SceneArrays& arrays) {
   write_parameters(arrays);
-  if (!lip) return;
-  for (std::size_t v = 0; v < vessels.size(); ++v) {
-    vessels[v].fills = upload(on, precision_, arrays.vessels[v].fills);
-    make_liquid(v, scene, arrays, core, options);
-  }
+  for (std::size_t v = 0; v < vessels.size(); ++v) upload_states(v, scene, arrays);
 }
 
 std::vector<Buffer> GripProgram::upload_blocks(const std::vector<double>& states) {
@@ -293,8 +267,8 @@ std::vector<Buffer> GripProgram::upload_blocks(const std::vector<double>& states
   return blocks;
 }
 
-// `loads` of every fill and tilt.
-void GripProgram::upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays, const std::vector<double>& loads) {
+void GripProgram::upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays) {
+  const std::vector<double>& loads = arrays.vessels[v].loads;
   const std::vector<double>& tilts = arrays.tilts;
   const std::vector<std::size_t>& counted = arrays.vessels[v].counted_tilts;
   std::vector<double> states(loads.size() / LOAD_STRIDE * STATE_STRIDE);
@@ -313,7 +287,7 @@ void GripProgram::upload_states(std::size_t v, const Scene& scene, const SceneAr
   }
   vessels[v].states = upload_blocks(states);
   if (!has_efforts_ || loads.empty()) return;
-  const EffortStates efforts = effort_states(scene, v, arrays.vessels[v], loads);
+  const EffortStates efforts = effort_states(scene, v, arrays.vessels[v]);
   vessels[v].worst_count = static_cast<std::uint32_t>(efforts.worst.size() / STATE_STRIDE);
   vessels[v].safe_count = static_cast<std::uint32_t>(efforts.safe.size() / STATE_STRIDE);
   vessels[v].worst_states = upload_blocks(efforts.worst);
@@ -354,59 +328,6 @@ std::vector<GripProgram::GripKernel> GripProgram::grip_kernels(std::size_t v, co
   if (scene.pose != Pose::rigged) kernels.push_back({&VesselOnDevice::rest, "rest", source, constants});
   if (scene.hand.between > 0 || azimuths > 0) kernels.push_back({&VesselOnDevice::overlap, "overlap", OUTLINE_NONE, overlap});
   return kernels;
-}
-
-std::unique_ptr<LiquidWork> GripProgram::liquid_work(std::size_t v, const SceneArrays& arrays) const {
-  const VesselOnDevice& vessel = vessels[v];
-  const std::size_t real = real_size(precision_);
-  const std::uint32_t states = fill_count * tilt_count, rows = WHOLE_DEGREES + tilt_count;
-  auto work = std::make_unique<LiquidWork>();
-  work->cavity = upload(on, precision_, arrays.vessels[v].cavity);
-  work->capacity = Buffer(on, real * rows);
-  work->liquids = Buffer(on, real * LIQUID_STRIDE * states);
-  work->loads = Buffer(on, real * LOAD_STRIDE * states);
-  Commands& commands = work->commands;
-  commands.bind(BINDING_PARAMETERS, vessel.parameters);
-  commands.bind(BINDING_CAVITY, work->cavity);
-  commands.bind(BINDING_QUADRATURE, quadrature);
-  commands.bind(BINDING_TILTS, tilts);
-  commands.bind(BINDING_FILLS, vessel.fills);
-  commands.bind(BINDING_CAPACITY, work->capacity);
-  commands.bind(BINDING_LIQUID, work->liquids);
-  commands.bind(BINDING_LOADS, work->loads);
-  commands.dispatch(*lip, groups_for(on, *lip, rows), Push{rows, 0, 0, 0});
-  for (std::uint32_t first = 0; first < states; first += LIQUID_PIECE)
-    commands.dispatch(*liquid, groups_for(on, *liquid, std::min(LIQUID_PIECE, states - first)), Push{states, 0, first, 0});
-  return work;
-}
-
-void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
-                              const GripBackendOptions& options) {
-  VesselOnDevice& vessel = vessels[v];
-  vessel.liquid.clear();
-  const std::uint32_t states = fill_count * tilt_count;
-  std::vector<double> loads;
-  const int pieces = arrays.vessels[v].cavity_count;
-  if (pieces == 0 || liquid_turns(pieces, options.evaluator.quadrature_points) > TURN_BUDGET) {
-    const VesselConstants constants = core.constants(v);
-    for (const double fill : arrays.vessels[v].fills)
-      for (const double tilt : scene.tilts) {
-        const LiquidResult state = core.liquid(v, fill, tilt);
-        const double together = constants.mass + state.mass, share = together > 0 ? state.mass / together : 0;
-        vessel.liquid.push_back(state);
-        loads.insert(loads.end(), {together, share, share * state.lean, share * state.height});
-      }
-    upload_states(v, scene, arrays, loads);
-    return;
-  }
-  const std::unique_ptr<LiquidWork> work = liquid_work(v, arrays);
-  run_once(on, work->commands);
-  const std::vector<double> values = download(work->liquids, options.precision, LIQUID_STRIDE * states);
-  for (std::uint32_t s = 0; s < states; ++s) {
-    const double* at = values.data() + LIQUID_STRIDE * s;
-    vessel.liquid.push_back({at[0], at[1], at[2], at[3], at[4]});
-  }
-  upload_states(v, scene, arrays, download(work->loads, options.precision, LOAD_STRIDE * states));
 }
 
 // After the forces: lowers a safe tilt at which the hand no longer holds.

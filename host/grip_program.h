@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene on one device: buffers that all grips share, the kernels, and the liquid's tables; for host/ alone.
+// A scene on one device: buffers that all grips share, and the kernels; for host/ alone.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace wholehand::host {
 // A vessel's data on the device.
 struct VesselOnDevice {
   OutlineSource outline_source = OUTLINE_COPIED;
-  Buffer parameters, outline, lattice, fills;
+  Buffer parameters, outline, lattice;
   std::vector<Buffer> states;                     // blocks of STATES_IN_BLOCK; empty without tilts
   std::vector<Buffer> worst_states, safe_states;  // the same for efforts; empty without them
   std::uint32_t worst_count = 0, safe_count = 0;  // states in them
@@ -23,40 +23,29 @@ struct VesselOnDevice {
   // vessels.
   std::shared_ptr<Kernel> closure, rest, contact, overlap;
   bool is_on_core() const { return !closure; }
-  std::vector<LiquidResult> liquid;  // fill-major; empty without
-};
-
-struct LiquidWork {
-  Buffer cavity, capacity, liquids, loads;  // LIQUID_STRIDE and LOAD_STRIDE a state, fill-major
-  Commands commands;
 };
 
 // The stream makes it, and makes it again on a fresh device after a failure.
 struct GripProgram final : Program {
-  GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
-              const std::string& selector, const GripBackendOptions& options);
+  GripProgram(const Scene& scene, const SceneArrays& arrays, const FieldSet& fields, const std::string& selector,
+              const GripBackendOptions& options);
   Device& device() override { return on; }
 
   // Dispatches the kernels of a chunk whose buffers are bound. `best`: how many candidates to select among grips with a score above `floor_score`.
   // Efforts are computed only for grips whose score may reach `least_score`.
   void record(std::size_t vessel, const Chunk& chunk, std::size_t best, double floor_score, double least_score, Commands& commands);
 
-  // The liquid of a vessel with a cavity over all fills and tilts, in a scene with liquid and tilts: buffers, and the dispatches that fill them.
-  std::unique_ptr<LiquidWork> liquid_work(std::size_t vessel, const SceneArrays& arrays) const;
-
   std::vector<const Kernel*> kernels() const;  // each once
 
   // Updates only the vessels' parameter blocks, in place. Requires that no chunk is in flight.
   void write_parameters(const SceneArrays& arrays);
-  // Updates the fills of all vessels and what depends on them: parameters, liquid and states. The number of fills must stay the same. Requires that
-  // no chunk is in flight.
-  void write_fills(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const GripBackendOptions& options);
+  // Updates what depends on the vessels' fills: parameters and states. The number of fills must stay the same. Requires that no chunk is in flight.
+  void write_fills(const Scene& scene, const SceneArrays& arrays);
 
   Device on;  // first: destroyed last
-  Buffer hand, tilts, quadrature;
+  Buffer hand;
   std::vector<VesselOnDevice> vessels;
   std::optional<Kernel> force, score, select;
-  std::optional<Kernel> lip, liquid;                                                // in a scene with liquid and tilts
   std::optional<Kernel> worst_effort, tips_effort, push_reserve, friction_reserve;  // in a scene with efforts
   double compile_seconds = 0;
   std::uint32_t forces_together = 1;  // grips per invocation of `force`
@@ -74,9 +63,7 @@ struct GripProgram final : Program {
   struct GripKernel;
   std::vector<GripKernel> grip_kernels(std::size_t v, const Scene& scene, const SceneArrays& arrays,
                                        const GripBackendOptions& options);
-  void make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
-                   const GripBackendOptions& options);
-  void upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays, const std::vector<double>& loads);
+  void upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays);
   std::vector<Buffer> upload_blocks(const std::vector<double>& states);
   void record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, double least_score, Commands& commands) const;
 };

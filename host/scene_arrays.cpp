@@ -66,7 +66,6 @@ void set_lattice(VesselArrays& arrays, const PreparedLattice& lattice) {
 }
 
 void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselData& vessel) {
-  p.liquid_density = scene.liquid ? scene.liquid->density : 0;
   p.gravity = scene.gravity;
   p.force_base = scene.force.base;
   p.force_range = vessel.force_range.value_or(scene.force.range);
@@ -115,33 +114,34 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
   p.tilts = static_cast<std::uint32_t>(scene.tilts.size());
 }
 
+void add_loads(VesselArrays& vessel, const Scene& scene, const Evaluator& core, std::size_t v) {
+  const double own = core.constants(v).mass;
+  for (const double fill : scene.liquid ? vessel_fills(scene, scene.vessels[v]) : std::vector<double>{0})
+    for (const double tilt : scene.tilts) {
+      const LiquidResult liquid = scene.liquid ? core.liquid(v, fill, tilt) : LiquidResult{};
+      if (scene.liquid) vessel.liquid.push_back(liquid);
+      const double together = own + liquid.mass, share = together > 0 ? liquid.mass / together : 0;
+      vessel.loads.insert(vessel.loads.end(), {together, share, share * liquid.lean, share * liquid.height});
+    }
+}
+
 }  // namespace
 
 SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const EvaluatorOptions& options) {
   SceneArrays arrays;
   arrays.hand = hand_table(prepare_hand(scene.hand, options.gap_table > 0 ? options.gap_table : GAP_TABLE_SIZE), scene.hand);
   for (const double tilt : scene.tilts) arrays.tilts.insert(arrays.tilts.end(), {std::sin(tilt), std::cos(tilt), tilt});
-  const PreparedQuadrature rule = prepare_quadrature(options.quadrature_points);
-  for (std::size_t i = 0; i < rule.cosine.size(); ++i)
-    arrays.quadrature.insert(arrays.quadrature.end(), {rule.cosine[i], rule.weight[i]});
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const VesselData& data = scene.vessels[v];
     const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
     const VesselConstants constants = core.constants(v);
     VesselArrays vessel;
     append_elements(vessel.outline, prepared.outline);
-    append_elements(vessel.cavity, prepared.cavity);
     vessel.outline_count = static_cast<int>(prepared.outline.size());
-    vessel.cavity_count = static_cast<int>(prepared.cavity.size());
     auto& p = vessel.parameters;
     set_scene_scalars(p, scene, data);
     p.bound_height = prepared.bound_height;
     p.bound_radius = prepared.bound_radius;
-    p.mouth_height = prepared.mouth_height;
-    p.mouth_radius = prepared.mouth_radius;
-    p.floor_height = prepared.floor_height;
-    p.capacity = constants.capacity;
-    p.vessel_mass = constants.mass;
     const Triple center = mirrored(constants.center_of_mass, scene.hand.handedness);
     p.center_x = center[0];
     p.center_y = center[1];
@@ -151,10 +151,8 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     p.largest_share = constants.largest_share;
     p.largest_height = constants.largest_height;
     p.outline_count = vessel.outline_count;
-    p.cavity_count = vessel.cavity_count;
     p.lid = NO_LID;
     p.lid_height = std::numeric_limits<double>::infinity();
-    p.quadrature_count = static_cast<std::uint32_t>(rule.cosine.size());
     if (const PreparedLattice* lattice = core.lattice(v)) {
       set_lattice(vessel, *lattice);
     } else if (prepared.lid >= 0) {
@@ -162,10 +160,8 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
       p.lid_radius = prepared.outline[prepared.lid].a[0];
       p.lid_height = prepared.outline[prepared.lid].a[1];
     }
-    if (scene.liquid) vessel.fills = vessel_fills(scene, data);
     vessel.counted_tilts = counted_tilts(scene, v);
-    for (std::size_t t = 0; !scene.liquid && t < scene.tilts.size(); ++t)
-      vessel.dry_loads.insert(vessel.dry_loads.end(), {constants.mass, 0, 0, 0});
+    add_loads(vessel, scene, core, v);
     arrays.vessels.push_back(std::move(vessel));
   }
   return arrays;
@@ -189,7 +185,8 @@ Point5 load_point(const double* load, double sine, double cosine, const Paramete
 }  // namespace
 
 // The worst state is mostly a full one at a large tilt, so those come first, and the others are soon skipped.
-EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel, const std::vector<double>& loads) {
+EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel) {
+  const std::vector<double>& loads = vessel.loads;
   EffortStates found;
   std::vector<Point5> points;
   std::vector<double> states;  // with the angle and the fill
@@ -232,13 +229,11 @@ Parameters<Real> convert(const Parameters<double>& from) {
   std::memcpy(&to, target.data(), sizeof target);
   to.outline_count = from.outline_count;
   to.lid = from.lid;
-  to.cavity_count = from.cavity_count;
   to.lattice_nx = from.lattice_nx;
   to.lattice_ny = from.lattice_ny;
   to.lattice_nz = from.lattice_nz;
   to.fills = from.fills;
   to.tilts = from.tilts;
-  to.quadrature_count = from.quadrature_count;
   return to;
 }
 

@@ -13,34 +13,34 @@
 
 namespace wholehand::host {
 
+constexpr int LOAD_STRIDE =
+    4;  // of a load: mass, the liquid's share of it, lean and height of the liquid's center of mass, both times the share
+
 struct VesselArrays {
   Parameters<double> parameters{};
   std::vector<double> outline;                                // OUTLINE_STRIDE an element
-  std::vector<double> cavity;                                 // likewise, y ascending
   std::shared_ptr<const std::vector<std::uint32_t>> lattice;  // samples as layout.h has them, x fastest; null for an outline
   bool halves = false;                                        // .. two to a word
-  std::vector<double> dry_loads;                              // LOAD_STRIDE for each tilt, for a scene without liquid
-  std::vector<double> fills;                                  // fractions of its capacity; empty without liquid
+  std::vector<LiquidResult> liquid;                           // of every fill and tilt, fill-major; empty without liquid
+  std::vector<double> loads;                                  // LOAD_STRIDE for each of them, or for each tilt without liquid
   std::vector<std::size_t> counted_tilts;                     // at each fill, from the first tilt on; the others are left out
-  int outline_count = 0, cavity_count = 0;
+  int outline_count = 0;
 };
 
 struct SceneArrays {
-  std::vector<double> hand;        // 4 * HAND_VECTORS
-  std::vector<double> tilts;       // sine, cosine, tilt
-  std::vector<double> quadrature;  // cosine, weight
+  std::vector<double> hand;   // 4 * HAND_VECTORS
+  std::vector<double> tilts;  // sine, cosine, tilt
   std::vector<VesselArrays> vessels;
 };
 
-// `core` evaluates the same scene with the same options. Capacities, masses, references and lattices come from it.
+// `core` evaluates the same scene with the same options. Liquids, masses, references and lattices come from it.
 SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const EvaluatorOptions& options = {});
 
 // States as the effort kernel reads them, STATE_STRIDE each: those that can be the worst, and all that count.
 struct EffortStates {
   std::vector<double> worst, safe;
 };
-// `loads` of every fill and tilt, LOAD_STRIDE each. In a scene with liquid they come from the device.
-EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel, const std::vector<double>& loads);
+EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel);
 
 // A parameter block in the shader's reals.
 template <class Real>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The most turns that the loops of each kernel take in a dispatch. What a grip, a state or a sample takes decides how the host splits work
-// into dispatches, and what it leaves to the core.
+// The most turns that the loops of each kernel take in a dispatch. What a grip or a state takes decides how the host splits work into
+// dispatches, and what it leaves to the core.
 //
 // Mesa's CPU driver ends every loop without a word after 65,535 turns of a vector of invocations, counted over all its loops together. A loop
 // counts the turns until its last lane leaves it, and one for each time that the vector comes to it. No kernel takes more than TURN_BUDGET turns
@@ -77,15 +77,6 @@ constexpr bool are_granted(const GripSteps& steps, const GripLoops& loops) {
 }
 static_assert(are_granted({}, {0, MOST_BETWEEN, true, ARM_AZIMUTHS}));
 
-// ---- lip and liquid ----
-// Lanes of a vector have their liquid in different ones of a piece's five parts, or stand upright.
-constexpr std::int64_t slices_turns(int pieces, int points) {
-  return loop_turns(pieces, loop_turns(5, loop_turns(points)) + loop_turns(points));
-}
-constexpr std::int64_t liquid_turns(int pieces, int points) {
-  return loop_turns(WHOLE_DEGREES) + loop_turns(pieces) + loop_turns(LEVEL_STEPS, slices_turns(pieces, points));
-}
-
 // ---- force and score, of so many fills and states ----
 constexpr std::int64_t force_turns(int states) { return loop_turns(states, loop_turns(1)); }  // each of a fill of its own
 constexpr std::int64_t score_turns(int fills) { return loop_turns(fills) + loop_turns(6); }
@@ -104,22 +95,11 @@ constexpr std::int64_t reserve_turns() {
          loop_turns(STATES_IN_BLOCK) + 4 * loop_turns(1);
 }
 
-static_assert(effort_turns(WHOLE_DEGREES) <= TURN_BUDGET && reserve_turns() <= TURN_BUDGET);
+constexpr int MANY_FILLS = 180;  // more than a scene may have
+static_assert(effort_turns(MANY_FILLS) <= TURN_BUDGET && reserve_turns() <= TURN_BUDGET);
 
 // ---- select ----
 constexpr std::int64_t select_turns(int best) { return loop_turns(SELECT_ENTRIES, loop_turns(best)) + 2 * loop_turns(best); }
 static_assert(select_turns(SELECT_LARGEST) <= TURN_BUDGET);
-
-// ---- loop: samples of a rendered wall ----
-constexpr std::int64_t PROPAGATOR_TURNS = 2 * loop_turns(LOOP_DOUBLINGS) + loop_turns(LOOP_ORDER);
-constexpr std::int64_t sample_turns(bool has_friction) {
-  const std::int64_t stop = loop_turns(LOOP_NEWTON, PROPAGATOR_TURNS) + 2 * PROPAGATOR_TURNS;
-  return loop_turns(LOOP_DELAYS) + (has_friction ? loop_turns(LOOP_STOPS, stop) : 0);
-}
-// Samples per dispatch, each step of a sample divided into that many parts.
-constexpr int most_samples(bool has_friction, int substeps) {
-  const std::int64_t start = PROPAGATOR_TURNS + loop_turns(substeps) + 2 * loop_turns(LOOP_DELAYS);
-  return static_cast<int>((TURN_BUDGET - start) / (1 + sample_turns(has_friction)));
-}
 
 }  // namespace wholehand::host

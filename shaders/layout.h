@@ -18,10 +18,6 @@
 #define STOP_TOLERANCE_F32 1e-6
 #define DEGENERATE_SINE_F64 1e-9    // sine of the angle between thumb-index line and axis under which a grip is degenerate
 #define DEGENERATE_SINE_F32 1e-6
-#define LEVEL_TOLERANCE_F64 1e-12   // of the capacity: liquid level
-#define LEVEL_TOLERANCE_F32 1e-6
-#define UPRIGHT_SINE_F64 1e-9       // sine of the tilt under which the free surface is taken as horizontal in the vessel frame
-#define UPRIGHT_SINE_F32 1e-5
 #define AXIS_DISTANCE RATIO(1, 1000000)  // m: paper pose, a point nearer to its axis stays
 #define LARGEST_E1_X RATIO(19, 20)  // |e1.x| above which the hand's frame is ill-defined: too narrow
 #define SMALLEST_PIVOT RATIO(1, 200)  // m: per_grip torque reference, and levers
@@ -40,46 +36,16 @@
 #define ADVANCE_STEPS 1024          // conservative advancement steps per stage
 #define PROXY_STEPS 16
 #define GAP_STEPS 32                // safeguarded Newton steps of the gap's inverse
-#define LEVEL_STEPS 64              // safeguarded Newton steps of the liquid level
 #define GAP_TABLE_SIZE 257          // entries of the table that starts the gap's inverse
 #define GAP_TABLE_LARGEST 1025      // .. that the hand's block has room for
-#define QUADRATURE_POINTS 32        // Gauss-Legendre points per piece: 1e-10 of the capacity if the plane passes close to an arc's pole
 #define MAX_OUTLINE 32              // elements that a kernel copies
-#define WHOLE_DEGREES 181           // tilts 0..180 at which the lip's capacity is tabulated
 #define HALF_UNIT RATIO(1, 1024)    // m: unit of 16-bit samples, chosen so that subnormal halves are under 60 nm
-#define LOOP_DELAYS 4               // largest delay of a haptic loop, in whole samples
-#define LOOP_ORDER 10               // of the series of its propagator
-#define LOOP_DOUBLINGS 48           // of the step of that series: 2e12 of the fastest time constants
-#define LOOP_STOPS 4                // reversals within a sample for which friction is followed
-#define LOOP_NEWTON 3               // steps to where the motion stops
-#define LOOP_EXACT 0                // how the motion between two samples is integrated
-#define LOOP_EULER 1                // explicit, at equal sub-steps
-#define LOOP_SEMI_IMPLICIT 2        // the place by the new speed
 
 // ---- turns of loops, small enough for TURN_BUDGET (host/turns.h); a grip whose efforts take more pivots is STATUS_OUT_OF_TURNS ----
 #define DEVICE_RISES 4              // of an effort: times that a grip looks for the state that its last lower bound bounds highest
 #define EFFORT_TURNS 4000           // of a grip in a dispatch of the effort kernel
 #define RESERVE_TURNS 4100          // .. of the kernel of reserves,
 #define RESERVE_RAISE_TURNS 1100    // and turns in which it searches for a friction
-
-// ---- a case of the rendered wall as its kernel reads it: plane * n + case, reals ----
-#define CASE_MASS 0                 // of the plant: kg
-#define CASE_DAMPING 1              // N s/m
-#define CASE_SPRING 2               // N/m
-#define CASE_WALL_STIFFNESS 3
-#define CASE_WALL_DAMPING 4
-#define CASE_PERIOD 5               // s
-#define CASE_ENCODER 6              // m
-#define CASE_FORCE_LIMIT 7          // N
-#define CASE_DELAY 8                // samples
-#define CASE_BILATERAL 9            // 0 or 1
-#define CASE_PRESS 10               // N
-#define CASE_FRICTION 11            // N
-#define CASE_PLACE 12               // m, where it is released
-#define CASE_INTEGRATOR 13          // LOOP_*
-#define CASE_SUBSTEPS 14
-#define CASE_PLANES 15
-#define CASE_STATE_PLANES (4 + LOOP_DELAYS)  // place, speed, reading, largest energy of the late samples; forces that wait
 
 // ---- the hand ----
 #define FINGERS 5
@@ -171,20 +137,13 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define BINDING_HAND 4              // uniform: vec4[HAND_VECTORS]
 #define BINDING_OUTLINE 5           // readonly: Real[OUTLINE_STRIDE * count]
 #define BINDING_LATTICE 6           // texel buffer of uint: each a float's bits, or two halves in units of HALF_UNIT, the first in the low bits
-#define BINDING_CAVITY 7            // readonly: Real[OUTLINE_STRIDE * pieces], y ascending
-#define BINDING_TILTS 8             // readonly: Real[3 * tilts]: sine, cosine, tilt
-#define BINDING_FILLS 9             // readonly: Real[fills]: fraction of capacity
-#define BINDING_LIQUID 10           // Real: per (fill, tilt) LIQUID_STRIDE values
-#define BINDING_CAPACITY 11         // Real: lip capacity per whole degree, then per listed tilt
-#define BINDING_LOADS 12            // Real: per (fill, tilt) LOAD_STRIDE values
-#define BINDING_QUADRATURE 13       // readonly: Real[2 * points]: cosine, weight
-#define BINDING_CANDIDATES 14       // Real scores, and
-#define BINDING_INDICES 15          // uint indices of the top-N selection
-#define BINDING_STATES 16           // uniform: vec4[2 * STATES_IN_BLOCK], a stretch of the (fill, tilt) in order
-#define BINDING_LANES 17            // uint[2]: useful lanes and all lanes, if a benchmark counts them (real.glsl)
-#define BINDINGS 18
+#define BINDING_CANDIDATES 7        // Real scores, and
+#define BINDING_INDICES 8           // uint indices of the top-N selection
+#define BINDING_STATES 9            // uniform: vec4[2 * STATES_IN_BLOCK], a stretch of the (fill, tilt) in order
+#define BINDING_LANES 10            // uint[2]: useful lanes and all lanes, if a benchmark counts them (real.glsl)
+#define BINDINGS 11
 
-// Record of an outline or cavity element, reals: start r, start y, end r, end y, center r, center y, radius, code. side: 0: line, with its unit
+// Record of an outline element, reals: start r, start y, end r, end y, center r, center y, radius, code. side: 0: line, with its unit
 // outward normal in place of the center; +1: arc on the half r >= center r; -1: the other half. supports: bits that say whether the element's tangent
 // is a supporting line of the outline (nothing of the outline lies beyond it) if a point's nearest one lies between the element's ends, is its start,
 // or is its end. For the last two, the line is perpendicular to the way to the point.
@@ -209,9 +168,6 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define HAND_TABLE 31               // closures of the gap's inverse, four a vec4
 #define HAND_VECTORS 288
 
-// Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's center of mass.
-#define LOAD_STRIDE 4
-
 // A state as the force kernel reads it: weight (N), the vessel's own share of the mass, lean of the center of mass, and its height if the vessel's
 // own is on the axis; sine, cosine and angle of its tilt (angle -1: the state is left out), and the angle of the previous tilt (-1: none). A state as
 // the effort kernel reads it: its load; sine and cosine of its tilt; then, for safe tilts, the angle of the previous tilt (-1: none) and the number
@@ -233,9 +189,6 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define EFFORT_FRICTION 3           // .. the least friction with which all states are held
 #define DEVICE_PIVOTS 200           // of a solve
 #define SOLVE_REALS 42              // .. in the group's memory, an invocation, in the small build
-
-// Liquid of one fill and tilt: volume, mass, lean, height, poured.
-#define LIQUID_STRIDE 5
 
 // ---- specialization constant ids ----
 #define CONST_GROUP_SIZE 0
@@ -261,7 +214,6 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_GAP_STEPS 43
 #define CONST_GAP_TABLE_SIZE 44
 #define CONST_LATTICE_BITS 45       // of a sample: 32 or 16
-#define CONST_FRICTION 46           // of the loop: whether any case has friction, bool
 #define CONST_EFFORT_TOLERANCE 47   // Real, of an effort's bracket; 1e-3 by default
 #define CONST_FEW_STEPS 48          // of the grips: whether their steps are limited below the core's to keep within TURN_BUDGET, bool
 #define CONST_PLANE 320             // + field: first plane, or -1: not computed
@@ -283,12 +235,7 @@ struct Parameters {
   Real bound_height;      // m: center and radius of a sphere that encloses the vessel
   Real bound_radius;
   Real lattice_x, lattice_y, lattice_z, lattice_spacing;  // m
-  Real mouth_height, mouth_radius;            // of the cavity, m
-  Real floor_height;      // m
-  Real capacity;          // m3
-  Real vessel_mass;       // kg
   Real center_x, center_y, center_z;          // of the empty vessel, m
-  Real liquid_density;    // kg/m3
   Real gravity;           // m/s2
   Real force_base, force_range, force_max;    // N
   Real reference;         // torque reference per object, N m
@@ -313,11 +260,11 @@ struct Parameters {
 #endif
       outline_count,      // for the variant that reads its outline from a buffer
       lid,                // index of the mouth's element, NO_LID: none
-      cavity_count, lattice_nx, lattice_ny, lattice_nz, fills, tilts, quadrature_count;
+      lattice_nx, lattice_ny, lattice_nz, fills, tilts;
 };
 
 // Push constants: number of grips of this chunk, distance between planes; first state and number of states for split dispatches; the bits of the
-// lowest wanted score; and a flag: whether efforts are for safe tilts, a score is its upper bound, or samples of a loop are late.
+// lowest wanted score; and a flag: whether efforts are for safe tilts, or a score is its upper bound.
 #ifdef __cplusplus
 struct Push {
   std::uint32_t count, stride, first, number;

@@ -5,7 +5,19 @@
 #define OUTLINE_GLSL
 
 #include "build.glsl"
-#include "element.glsl"
+#include "real.glsl"
+
+// A y-monotone line or arc in the (r, y) half plane, as in core/sdf.h.
+struct Element {
+  Vec2 a, b, center;
+  Real radius;
+  int side, supports;
+};
+
+// From a record: layout.h defines `code`.
+Element make_element(Vec2 a, Vec2 b, Vec2 center, Real radius, Real code) {
+  return Element(a, b, center, radius, SIDE_OF(int(code)), SUPPORTS_OF(int(code)));
+}
 
 layout(constant_id = CONST_SDF_KIND) const int SDF_KIND = SDF_OUTLINE;
 
@@ -14,7 +26,11 @@ layout(constant_id = CONST_SDF_KIND) const int SDF_KIND = SDF_OUTLINE;
 layout(std430, binding = BINDING_OUTLINE) readonly buffer OutlineBlock { Real outline_values[]; };
 #define OUTLINE_COUNT int(scene.outline_count)
 #define OUTLINE_LOOP [[dont_unroll]]
-Element outline_element(int i) { return ELEMENT_AT(outline_values, OUTLINE_STRIDE * i); }
+Element outline_element(int i) {
+  int at = OUTLINE_STRIDE * i;
+  return make_element(Vec2(outline_values[at], outline_values[at + 1]), Vec2(outline_values[at + 2], outline_values[at + 3]),
+                      Vec2(outline_values[at + 4], outline_values[at + 5]), outline_values[at + 6], outline_values[at + 7]);
+}
 void load_outline() {}
 
 #else

@@ -88,7 +88,10 @@ void add_stability_command(CLI::App& app, Action& action) {
   command->add_option("-o,--output", report_arguments->folder, "Folder for the tables, pictures and the summary")
       ->type_name("DIR")
       ->check(not_empty());
-  command->add_option("--on", report_arguments->on, "core, vulkan (the best device; the default) or the name of a device")
+  command
+      ->add_option(
+          "--on", report_arguments->on,
+          "Device that evaluates the extreme scenes beside the core: vulkan (the best; the default), a name, or core for none")
       ->type_name("DEVICE")
       ->check(offered("core vulkan"))
       ->check(not_empty());

@@ -5,20 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <random>
 
 #include "base/numbers/parallel.h"
 #include "base/numbers/random_bits.h"
 #include "base/text/text.h"
-#include "core/core_backend.h"
 #include "core/wall_run.h"
-#include "host/wall_map.h"
 
 namespace wholehand {
 namespace {
 
-constexpr std::size_t POINTS_AT_ONCE = 16384;  // seconds on two cores, and enough to fill a large device
+constexpr std::size_t POINTS_AT_ONCE = 4096;  // between two questions whether to go on: a fraction of a second on two cores
 
 std::vector<double> logarithmic(double from, double to, int count) {
   std::vector<double> values;
@@ -93,25 +90,6 @@ const std::vector<NamedDevice>& wall_devices() {
   return devices;
 }
 
-WallRunner open_wall_runner(const std::string& on, BackendInfo& info, double& kernel_seconds) {
-  if (on == "core") {
-    const int threads = thread_count();
-    info = core_info(Precision::full, threads);
-    return [threads](const std::vector<WallCase>& cases, int samples, int late) {
-      std::vector<double> energies(cases.size());
-      in_parallel(cases.size(), threads, [&](std::size_t i) { energies[i] = core_f64::late_energy(cases[i], samples, late); });
-      return energies;
-    };
-  }
-  const auto map = std::make_shared<host::WallMap>(on, Precision::single);
-  info = {"vulkan", map->device().name, map->device().driver, Precision::single, map->device().kind == host::DeviceKind::cpu};
-  return [map, &kernel_seconds](const std::vector<WallCase>& cases, int samples, int late) {
-    auto energies = map->late_energies(cases, samples, late);
-    kernel_seconds = map->kernel_seconds();
-    return energies;
-  };
-}
-
 std::vector<WallSheet> wall_sheets(bool quick, std::uint64_t seed) {
   const int stiffnesses = quick ? 48 : 96;
   const std::vector<double> rates = logarithmic(250, 8000, quick ? 11 : 41);  // 1000 and every octave among them
@@ -171,8 +149,7 @@ std::size_t count_points(const std::vector<WallSheet>& sheets) {
   return count;
 }
 
-// A sheet at a time: with friction a sample costs many times more, and cases of one dispatch wait for each other.
-bool run_walls(std::vector<WallSheet>& sheets, const WallRunner& runner, const std::function<bool(std::size_t done)>& go_on) {
+bool run_walls(std::vector<WallSheet>& sheets, const std::function<bool(std::size_t done)>& go_on) {
   std::size_t done = 0;
   for (WallSheet& sheet : sheets) {
     std::vector<WallCase> cases;
@@ -185,14 +162,14 @@ bool run_walls(std::vector<WallSheet>& sheets, const WallRunner& runner, const s
         cases.push_back(trial.press);
         allowed.push_back(trial.allowed);
       }
-    std::vector<double> energies;
+    std::vector<double> energies(cases.size());
     for (std::size_t first = 0; first < cases.size(); first += POINTS_AT_ONCE) {
       if (!go_on(done)) return false;
-      const auto begin = cases.begin() + static_cast<std::ptrdiff_t>(first);
-      const std::vector<WallCase> part(begin, begin + static_cast<std::ptrdiff_t>(std::min(POINTS_AT_ONCE, cases.size() - first)));
-      const std::vector<double> some = runner(part, WALL_SAMPLES, LATE_SAMPLES);
-      energies.insert(energies.end(), some.begin(), some.end());
-      done += part.size();
+      const std::size_t count = std::min(POINTS_AT_ONCE, cases.size() - first);
+      in_parallel(count, thread_count(), [&](std::size_t i) {
+        energies[first + i] = core_f64::late_energy(cases[first + i], WALL_SAMPLES, LATE_SAMPLES);
+      });
+      done += count;
     }
     std::size_t i = 0;
     for (WallColumn& column : sheet.columns) {

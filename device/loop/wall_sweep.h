@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a rendered wall settles, over its stiffness and everything that limits it: many presses at once, on a device or on the core.
+// Finds where a rendered wall settles, over its stiffness and everything that limits it: many presses, on all threads.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/backend.h"
 #include "device/loop/wall.h"
 
 namespace wholehand {
-
-// Largest energies of the late samples of many cases, by device or core.
-using WallRunner = std::function<std::vector<double>(const std::vector<WallCase>& cases, int samples, int late)>;
-
-// `on`: core (in double), or a device (in float). `info` says which. Throws Error as choose_device.
-WallRunner open_wall_runner(const std::string& on, BackendInfo& info, double& kernel_seconds);
 
 // One press of a device against a wall.
 struct WallPoint {
@@ -52,8 +45,7 @@ std::vector<WallSheet> wall_sheets(bool quick, std::uint64_t seed);
 // Fills in the energies and `simulated`. Calls `go_on` with the number of finished points every few thousand points, and stops with false if it
 // returns false.
 bool run_walls(
-    std::vector<WallSheet>& sheets, const WallRunner& runner,
-    const std::function<bool(std::size_t done)>& go_on = [](std::size_t) { return true; });
+    std::vector<WallSheet>& sheets, const std::function<bool(std::size_t done)>& go_on = [](std::size_t) { return true; });
 // The largest stiffness that settles with the integrator, by the core, found as by wall_limits.
 double integrator_limit(const WallDevice& device, int integrator, int substeps);
 std::size_t count_points(const std::vector<WallSheet>& sheets);

@@ -226,7 +226,7 @@ std::optional<PouringStream> pouring_stream(const LiveScene& live, const Tick& t
   if (!(tick.flow > 0) || tick.vessel < 0) return std::nullopt;
   const core_f64::Vessel& glass = live.vessels[tick.vessel].vessel;
   const Upward to(tick.vessel_rotation);
-  if (!(to.sine > UPRIGHT_SINE_F64)) return std::nullopt;
+  if (!(to.sine > core_f64::UPRIGHT_SINE)) return std::nullopt;
   const Vec3 lip(-glass.mouth_radius * to.up.x / to.sine, glass.mouth_height, -glass.mouth_radius * to.up.z / to.sine);
   PouringStream stream;
   stream.flow = tick.flow;

@@ -249,7 +249,7 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
 Session::Leaning Session::leaning_of(const Pose& vessel) const noexcept {
   const Vec3 up = glm::transpose(vessel.rotation) * Vec3(0, 1, 0);
   const double sine = std::sqrt(up.x * up.x + up.z * up.z), cosine = up.y;
-  const bool is_upright = sine < UPRIGHT_SINE_F64;
+  const bool is_upright = sine < core_f64::UPRIGHT_SINE;
   const double off_axis = std::hypot(grasp_.direction.x, grasp_.direction.z);
   const double sense = live_->scene.liquid && live_->scene.liquid->pour == Pour::towards ? -1 : 1;
   const Vec3 across = off_axis > DEGENERATE_SINE_F64 ? core_f64::pour_direction(grasp_.direction, sense) : Vec3(1, 0, 0);

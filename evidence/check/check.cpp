@@ -87,16 +87,8 @@ class Checking {
       exact_.add(v, grips, gather(*on_double_, v, grips), full, full);
       done();
     }
-    const bool has_liquid = !scene_.tilts.empty();
-    const auto liquid_float = core_liquid(scene_, *core_float_, v), liquid = core_liquid(scene_, *core_, v);
-    if (has_liquid) translation_.add_liquid(v, on_float_->liquid(v), liquid_float);
-    if (!translation_.outliers().empty()) {  // whose fault that is
-      float_device_.add(v, grips, device, full, full);
-      if (has_liquid) float_device_.add_liquid(v, on_float_->liquid(v), liquid);
-    }
-    if (!has_liquid) return;
-    cost_.add_liquid(v, liquid_float, liquid);
-    if (on_double_) exact_.add_liquid(v, on_double_->liquid(v), liquid);
+    if (!translation_.outliers().empty()) float_device_.add(v, grips, device, full, full);  // whose fault that is
+    if (!scene_.tilts.empty()) cost_.add_liquid(v, core_liquid(scene_, *core_float_, v), core_liquid(scene_, *core_, v));
   }
 
   void fill_report(CheckReport& report, const std::vector<CheckSample>& samples) const {

@@ -212,7 +212,6 @@ std::vector<ExtremeRow> evaluate_extreme(const ExtremeCase& extreme, const Extre
     ExtremeTally tally(extreme, *full, backend.info(), false);
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       tally.add(v, grips[v], gather(backend, v, grips[v]), truth[v]);
-      if (!scene.tilts.empty()) tally.add_liquid(v, backend.liquid(v), true_liquid[v], full->constants(v));
     }
     rows.push_back(tally.finished());
     if (!backend.device().float64) break;

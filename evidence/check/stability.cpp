@@ -246,7 +246,6 @@ void write_extremes(std::string& out, const std::vector<ExtremeCase>& cases, con
 
 // What a run finds.
 struct Stability {
-  BackendInfo info;  // where the walls were computed
   std::vector<WallSheet> sheets;
   double wall_seconds = 0;
   WallFindings walls;
@@ -255,12 +254,12 @@ struct Stability {
 };
 
 // False: interrupted.
-bool compute_stability(const StabilityOptions& options, const WallRunner& runner, InterruptGuard& interrupt, Stability& stability) {
+bool compute_stability(const StabilityOptions& options, InterruptGuard& interrupt, Stability& stability) {
   show_status("limits by theory");
   stability.sheets = wall_sheets(options.quick, options.seed);
   const double start = monotonic_now();
   const std::size_t points = count_points(stability.sheets);
-  const bool walls_done = run_walls(stability.sheets, runner, [&](std::size_t done) {
+  const bool walls_done = run_walls(stability.sheets, [&](std::size_t done) {
     show_status(fmt::format("walls {} of {}", done, points));
     return !interrupt.flag();
   });
@@ -283,9 +282,12 @@ bool compute_stability(const StabilityOptions& options, const WallRunner& runner
 
 std::string summary_of(const StabilityOptions& options, const Stability& stability) {
   std::string summary;
-  const BackendInfo& info = stability.info;
-  append_formatted(summary, "# Stability\n\nwholehand {}, {} ({}), {}, seed {}, {} run.\n", version(), info.device, info.driver,
-                   info.precision == Precision::single ? "float" : "double", options.seed, options.quick ? "quick" : "full");
+  append_formatted(summary, "# Stability\n\nwholehand {}, seed {}, {} run. Walls and held grips are computed on the core in double",
+                   version(), options.seed, options.quick ? "quick" : "full");
+  const auto device = std::ranges::find_if(stability.extremes, [](const ExtremeRow& row) { return row.backend != "core"; });
+  if (device != stability.extremes.end())
+    append_formatted(summary, ", extreme scenes on {} ({}) too", device->device, device->driver);
+  summary += ".\n";
   write_walls(summary, stability.sheets, stability.walls);
   append_formatted(summary, "\nThese walls took {:.1f} s.\n", stability.wall_seconds);
   write_grips(summary, stability.grips);
@@ -297,10 +299,9 @@ std::string summary_of(const StabilityOptions& options, const Stability& stabili
 void write_stability_tables(const StabilityOptions& options, const Stability& stability) {
   const auto path = [&options](const char* name) { return options.folder + "/" + name; };
   const std::string stamp = fmt::format("{},{}", version(), options.seed);
-  const std::string run = fmt::format("{},{},{}", csv_text(stability.info.device), csv_text(stability.info.driver), stamp);
   const std::string on_core = fmt::format("core,{},{}", csv_text(core_info(Precision::full, 1).driver), stamp);
   write_whole_file(path("wall.csv"), wall_csv(stability.sheets), false);
-  write_whole_file(path("wall_limits.csv"), wall_limits_csv(stability.sheets, run), false);
+  write_whole_file(path("wall_limits.csv"), wall_limits_csv(stability.sheets, on_core), false);
   write_whole_file(path("grip_loop.csv"), grip_loop_csv(stability.grips, on_core), false);
   if (!options.extremes.empty()) write_whole_file(path("extreme.csv"), extreme_csv(stability.extremes), false);
 }
@@ -319,12 +320,11 @@ void draw_stability_pictures(const std::string& folder, const std::vector<WallSh
 
 ExitCode run_stability(const StabilityOptions& options) {
   Stability stability;
-  double kernel_seconds = 0;
-  const WallRunner runner = open_wall_runner(options.on, stability.info, kernel_seconds);
-  make_output_folder(options.folder);  // when the device is there, so that a wrong one leaves none
+  if (options.on != "core") host::choose_device(host::list_devices(), options.on);  // a wrong one leaves no folder
+  make_output_folder(options.folder);
   check_folder_files(options.folder, "stability", STABILITY_TABLES, STABILITY_PICTURES);
   InterruptGuard interrupt;
-  if (!compute_stability(options, runner, interrupt, stability)) {
+  if (!compute_stability(options, interrupt, stability)) {
     show_status("");
     print_note("interrupted; nothing was written");
     return ExitCode::interrupted;

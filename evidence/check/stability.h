@@ -13,7 +13,7 @@ namespace wholehand {
 
 struct StabilityOptions {
   std::string folder;         // made if missing; files in it are replaced, each as a whole
-  std::string on = "vulkan";  // core, or a device
+  std::string on = "vulkan";  // core, or a device beside it for the extreme scenes
   bool quick = false;         // under a minute on two cores
   std::uint64_t seed = 1;     // for the random devices and walls
   std::vector<ExtremeCase> extremes;

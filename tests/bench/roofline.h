@@ -111,9 +111,6 @@ std::vector<RooflineRow> device_rows(const Options& options, const Peaks& peaks,
                                      const std::vector<Demand>& demands, Precision precision);
 // The whole of a grip on each backend of such rows: what follows the grips without bodies, together.
 std::vector<RooflineRow> whole_rows(const std::vector<RooflineRow>& rows);
-// States of the liquid, and samples of rendered walls: no work of a grip. Everywhere.
-std::vector<RooflineRow> liquid_rows(const Options& options, const Peaks& peaks, const Scene& scene);
-std::vector<RooflineRow> wall_rows(const Options& options, const Peaks& peaks);
 
 void print_roofline(const Peaks& peaks, const std::vector<RooflineRow>& rows);
 // Throws Error where it cannot be written.

@@ -25,8 +25,6 @@ Roofline measure(const Options& options) {
   add(device_rows(options, peaks, workloads, demand, Precision::single));
   if (peaks.device.float64) add(device_rows(options, peaks, workloads, demand, Precision::full));
   add(whole_rows(roofline.rows));
-  add(liquid_rows(options, peaks, workloads.back().scene));
-  add(wall_rows(options, peaks));
   return roofline;
 }
 

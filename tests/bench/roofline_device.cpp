@@ -47,7 +47,7 @@ class DeviceRun {
     if (counting) on_device_.shaders = counting_kernels();
     const auto core = make_core_evaluator(workload.scene);
     const host::SceneArrays arrays = host::make_scene_arrays(workload.scene, *core, {});
-    program_ = std::make_unique<host::GripProgram>(workload.scene, arrays, *core, workload.fields, options.device, on_device_);
+    program_ = std::make_unique<host::GripProgram>(workload.scene, arrays, workload.fields, options.device, on_device_);
     const auto reals = static_cast<std::size_t>(program_->real_planes);
     chunk_.count = chunk_.stride = SAMPLE * repeats(program_->on.info(), reals * real_);
     grips_ = host::Buffer(program_->on, GRIP_AXES * chunk_.stride * real_);

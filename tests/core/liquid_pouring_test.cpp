@@ -49,7 +49,7 @@ TEST(Liquid, LipHoldsWhatLiesUnderTheMouthsLowestPoint) {
 
 TEST(Liquid, LipCapacityNeverGrowsWithTheTilt) {
   for (const CavitySample& s : cavity_samples()) {
-    ASSERT_EQ(s.vessel.lip_capacity.size(), WHOLE_DEGREES);
+    ASSERT_EQ(s.vessel.lip_capacity.size(), core_f64::WHOLE_DEGREES);
     double last = s.vessel.capacity;
     for (double degree = 0; degree <= 180; degree += 0.5) {
       const double capacity = lip_capacity(s.vessel, radians(degree));

@@ -95,14 +95,9 @@ TEST(DiscreteGpu, TakesFewAllocationsForHundredsOfVessels) {
   const auto results_of_last = [&](const Scene& scene) {
     host::GripBackend backend(scene, make_core_evaluator(scene), fields, "vulkan");
     const std::size_t last = scene.vessels.size() - 1;
-    return std::pair{gather(backend, last, grips), backend.liquid(last)};
+    return gather(backend, last, grips);
   };
-  const auto [among_many, liquid_among_many] = results_of_last(many);
-  const auto [alone, liquid_alone] = results_of_last(one);
-  EXPECT_TRUE(have_same_bits(among_many, alone));
-  ASSERT_EQ(liquid_among_many.size(), liquid_alone.size());
-  for (std::size_t state = 0; state < liquid_alone.size(); ++state)
-    EXPECT_EQ(liquid_among_many[state].mass, liquid_alone[state].mass) << state;
+  EXPECT_TRUE(have_same_bits(results_of_last(many), results_of_last(one)));
 }
 
 }  // namespace

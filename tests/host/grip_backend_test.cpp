@@ -54,9 +54,6 @@ TEST(GripBackend, StagedTransfersGiveTheSameBits) {
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const auto grips = sample_grips(scene.vessels[v], 3000, 7 + v);
     EXPECT_EQ(differences(gather(*direct, v, grips), gather(*copied, v, grips)), 0u);
-    const auto a = direct->liquid(v), b = copied->liquid(v);
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t s = 0; s < a.size(); ++s) EXPECT_EQ(a[s].volume, b[s].volume);
   }
 }
 
@@ -127,7 +124,7 @@ TEST(GripBackend, EachVesselHasItsOwnFills) {
     const std::vector<LiquidResult> table = device->liquid(v);
     ASSERT_EQ(table.size(), 6u);
     const double capacity = core->capacity(v);
-    EXPECT_NEAR(table[3].volume, scene.vessels[v].fills[1] * capacity, 1e-6 * capacity);  // float
+    EXPECT_NEAR(table[3].volume, scene.vessels[v].fills[1] * capacity, 1e-12 * capacity);
     EXPECT_EQ(table[0].volume, 0);
   }
 }
@@ -199,11 +196,11 @@ TEST(GripBackend, LongOutlinesGoToTheCoreOnACpuDriver) {
 TEST(GripBackend, SaysWhatItMadeAndWhatAGripTakes) {
   const Scene scene = wet({beaker1()}), dry = scene_of({beaker1()});
   const auto with = backend_of(scene, make_field_set(FEW, scene));
-  EXPECT_TRUE(with->pipelines(0).force && with->pipelines(0).liquid);
+  EXPECT_TRUE(with->pipelines(0).force);
   EXPECT_GT(with->info().compile_seconds, 0);
   const FieldSet scored = make_field_set({FIELD_SCORE}, dry);
   const auto without = backend_of(dry, scored);
-  EXPECT_FALSE(without->pipelines(0).force || without->pipelines(0).liquid);
+  EXPECT_FALSE(without->pipelines(0).force);
   constexpr int HANDED_ON = 3 * JOINTS + PLACED_STRIDE;  // the posed points, and how the hand is placed
   EXPECT_EQ(without->bytes_per_grip(), 4u * (GRIP_AXES + scored.real_planes + HANDED_ON + scored.uint_planes));
   EXPECT_LT(without->bytes_per_grip(), with->bytes_per_grip());

@@ -30,7 +30,7 @@ std::map<Words, std::string> modules_of(KernelBuild build, const std::vector<std
   for (const std::string& name : scenes) {
     const Scene scene = read_scene_file(scenes_dir() + "/" + name + ".toml");
     const auto core = make_core_evaluator(scene);
-    const host::GripProgram program(scene, host::make_scene_arrays(scene, *core, {}), *core, all_fields(scene), "vulkan", options);
+    const host::GripProgram program(scene, host::make_scene_arrays(scene, *core, {}), all_fields(scene), "vulkan", options);
     for (const host::Kernel* kernel : program.kernels()) modules.emplace(kernel->words(), name + " " + kernel->name());
   }
   return modules;

@@ -75,20 +75,12 @@ class Meter {
   std::int64_t idle_ = 0;
 };
 
-// The liquid's run when a program is made, with no meter bound.
-std::vector<EmbeddedShader> metered_for_grips() {
-  std::vector<EmbeddedShader> shaders(metered_shaders().begin(), metered_shaders().end());
-  std::erase_if(shaders, [](const EmbeddedShader& shader) { return shader.name == "liquid" || shader.name == "lip"; });
-  return shaders;
-}
-
 // Most turns of each kernel for some grips of the first vessel, the 64 best of them selected.
 std::map<std::string, std::int64_t> turns_of(const Scene& scene, const FieldSet& fields, const std::vector<GripInput>& grips,
                                              host::GripBackendOptions options, bool& counts) {
-  const std::vector<EmbeddedShader> shaders = metered_for_grips();
-  options.shaders = shaders;
+  options.shaders = metered_shaders();
   const auto core = make_core_evaluator(scene, options.evaluator);
-  host::GripProgram program(scene, host::make_scene_arrays(scene, *core, options.evaluator), *core, fields, "vulkan", options);
+  host::GripProgram program(scene, host::make_scene_arrays(scene, *core, options.evaluator), fields, "vulkan", options);
   Meter meter(program.on);
   counts = meter.counts();
   host::Chunk chunk;
@@ -356,93 +348,6 @@ TEST(Turns, SelectionsEndWithinTheirBounds) {
   expect_worst(meter.counts(), turns, SELECT_ENTRIES * (host::SELECT_LARGEST - 1), "select");
   const auto best = indices.read_as<std::uint32_t>(host::SELECT_LARGEST);
   for (std::uint32_t k = 0; k < host::SELECT_LARGEST; ++k) EXPECT_EQ(best[k], SELECT_ENTRIES - 1 - k);
-}
-
-// The most pieces that a device integrates, at every tilt at once: lanes have their liquid in different parts of a piece.
-TEST(Turns, LiquidsEndWithinTheirBounds) {
-  const int points = QUADRATURE_POINTS;
-  const Scene wet = flask_of_many_states();
-  const auto core = make_core_evaluator(wet);
-  const FieldSet fields = make_field_set({FIELD_SCORE}, wet);
-  host::GripProgram program(wet, host::make_scene_arrays(wet, *core, {}), *core, fields, "vulkan", {});
-  const host::SceneArrays arrays = host::make_scene_arrays(wet, *core, {});
-  const int pieces = arrays.vessels[0].cavity_count;
-  EXPECT_LE(host::liquid_turns(pieces, points), host::TURN_BUDGET);
-  const auto work = program.liquid_work(0, arrays);
-  Meter own(program.on);
-  for (const std::string name : {"lip", "liquid"}) {
-    const host::Kernel kernel(program.on, host::find_shader(name, Precision::single, BUILD_WIDE, OUTLINE_NONE, metered_shaders()),
-                              COMMON, name);
-    host::Commands commands;
-    own.bind(commands);
-    commands.bind(BINDING_PARAMETERS, program.vessels[0].parameters);
-    commands.bind(BINDING_CAVITY, work->cavity);
-    commands.bind(BINDING_QUADRATURE, program.quadrature);
-    commands.bind(BINDING_TILTS, program.tilts);
-    commands.bind(BINDING_FILLS, program.vessels[0].fills);
-    commands.bind(BINDING_CAPACITY, work->capacity);
-    commands.bind(BINDING_LIQUID, work->liquids);
-    commands.bind(BINDING_LOADS, work->loads);
-    const std::uint32_t count = name == "lip" ? WHOLE_DEGREES + program.tilt_count : program.fill_count * program.tilt_count;
-    commands.dispatch(kernel, host::groups_for(program.on, kernel, count), Push{count, 0, 0, 0});
-    const std::int64_t turns = own.turns(commands);
-    EXPECT_LE(turns, name == "lip" ? host::slices_turns(pieces, points) : host::liquid_turns(pieces, points)) << name;
-    expect_worst(own.counts(), turns, pieces * 2 * points, name);
-  }
-}
-
-// More states of the liquid than a dispatch takes: the piece after the first goes on where that ends.
-TEST(Turns, ManyStatesOfALiquidAreSeveralDispatches) {
-  const Scene wet = flask_of_many_states();
-  const auto core = make_core_evaluator(wet);
-  const host::SceneArrays arrays = host::make_scene_arrays(wet, *core, {});
-  host::GripProgram program(wet, arrays, *core, make_field_set({FIELD_SCORE}, wet), "vulkan", {});
-  const std::vector<LiquidResult>& states = program.vessels[0].liquid;
-  ASSERT_GT(states.size(), 1024u);
-  const auto work = program.liquid_work(0, arrays);
-  const std::vector<host::Commands::Step>& steps = work->commands.steps();
-  EXPECT_EQ(steps.size(), 1 + (states.size() + 1023) / 1024) << "of the lip, and of the liquid";
-  for (const host::Commands::Step& step : steps) EXPECT_LE(step.groups[0] * step.groups[1] * GROUP_SIZE, 1024u);
-  for (std::size_t state = 0; state < states.size(); ++state) {
-    const LiquidResult expected =
-        core->liquid(0, arrays.vessels[0].fills[state / wet.tilts.size()], wet.tilts[state % wet.tilts.size()]);
-    EXPECT_NEAR(states[state].volume, expected.volume, 1e-8) << state;  // m3; float's rounding
-  }
-}
-
-// A stiff and nearly massless device: its propagator halves the step as often as it may, with friction in each stop again.
-TEST(Turns, WallsEndWithinTheirBounds) {
-  const host::Device on;
-  Meter meter(on);
-  for (const bool has_friction : {false, true}) {
-    const std::vector<host::Constant> constants{COMMON[0], {CONST_FRICTION, std::uint32_t(has_friction)}};
-    const host::Kernel kernel(on, host::find_shader("loop", Precision::single, BUILD_WIDE, OUTLINE_NONE, metered_shaders()),
-                              constants, "loop");
-    std::vector<float> cases(CASE_PLANES * GROUP_SIZE);
-    for (int i = 0; i < GROUP_SIZE; ++i) {
-      const auto put = [&](int plane, double value) { cases[plane * GROUP_SIZE + i] = static_cast<float>(value); };
-      put(CASE_MASS, 1e-18 * (1 + i));
-      put(CASE_SPRING, 1e6);
-      put(CASE_DAMPING, i % 3);
-      put(CASE_WALL_STIFFNESS, 1e5);
-      put(CASE_PERIOD, 1e-3);
-      put(CASE_DELAY, i % (LOOP_DELAYS + 1));
-      put(CASE_FRICTION, has_friction ? 1e-3 * i : 0);
-      put(CASE_PRESS, 1);
-      put(CASE_PLACE, 1e-3 * i);
-      put(CASE_INTEGRATOR, i % 2 == 0 ? LOOP_EXACT : LOOP_EULER);
-      put(CASE_SUBSTEPS, i % 2 == 0 ? 1 : 16);
-    }
-    const host::Buffer given = host::Buffer::of(on, cases), state(on, CASE_STATE_PLANES * GROUP_SIZE * sizeof(float));
-    host::Commands commands;
-    meter.bind(commands);
-    commands.bind(BINDING_GRIPS, given);
-    commands.bind(BINDING_REAL_OUT, state);
-    const auto samples = static_cast<std::uint32_t>(host::most_samples(has_friction, 16));
-    commands.dispatch(kernel, host::groups_for(on, kernel, GROUP_SIZE), Push{GROUP_SIZE, GROUP_SIZE, 1, samples, 0, 0, 1});
-    const std::int64_t turns = meter.turns(commands);
-    expect_worst(meter.counts(), turns, has_friction ? 10 * host::PROPAGATOR_TURNS : samples, "loop");
-  }
 }
 
 }  // namespace

@@ -146,8 +146,7 @@ Offsets parameter_offsets() {
   Offsets offsets;
 #define OFFSET(member) offsets[#member] = offsetof(P, member)
   OFFSET(bound_height), OFFSET(bound_radius), OFFSET(lattice_x), OFFSET(lattice_y), OFFSET(lattice_z), OFFSET(lattice_spacing);
-  OFFSET(mouth_height), OFFSET(mouth_radius), OFFSET(floor_height), OFFSET(capacity), OFFSET(vessel_mass);
-  OFFSET(center_x), OFFSET(center_y), OFFSET(center_z), OFFSET(liquid_density), OFFSET(gravity);
+  OFFSET(center_x), OFFSET(center_y), OFFSET(center_z), OFFSET(gravity);
   OFFSET(force_base), OFFSET(force_range), OFFSET(force_max), OFFSET(reference);
   OFFSET(largest_mass), OFFSET(largest_share), OFFSET(largest_height);
   OFFSET(friction), OFFSET(torsion), OFFSET(friction_angle), OFFSET(grip_strength);
@@ -157,8 +156,8 @@ Offsets parameter_offsets() {
   OFFSET(lid_radius), OFFSET(lid_height), OFFSET(lid), OFFSET(elbow_radius), OFFSET(flexion), OFFSET(extension), OFFSET(ulnar),
       OFFSET(radial), OFFSET(pronation), OFFSET(supination);
   OFFSET(weight_fingers), OFFSET(weight_contacts), OFFSET(weight_depth), OFFSET(weight_posture), OFFSET(weight_force);
-  OFFSET(weight_hold), OFFSET(outline_count), OFFSET(cavity_count), OFFSET(lattice_nx), OFFSET(lattice_ny), OFFSET(lattice_nz);
-  OFFSET(fills), OFFSET(tilts), OFFSET(quadrature_count);
+  OFFSET(weight_hold), OFFSET(outline_count), OFFSET(lattice_nx), OFFSET(lattice_ny), OFFSET(lattice_nz);
+  OFFSET(fills), OFFSET(tilts);
 #undef OFFSET
   return offsets;
 }

@@ -197,20 +197,18 @@ TEST(ParityShortcuts, LiquidAndTiltsLeftOutChangeNothingInTheRest) {
   for (const bool device : {false, true}) {
     const std::string where = device ? "device" : "core";
     bool bitwise = true;
-    const auto planes_of = [&](const Scene& scene, bool force, bool liquid) {
+    const auto planes_of = [&](const Scene& scene, bool force) {
       if (!device) return gather(*make_core_evaluator(scene), all_fields(scene), 0, grips);
       const auto backend = backend_of(scene, all_fields(scene), Precision::single);
       bitwise = backend->info().is_cpu;
       EXPECT_EQ(backend->pipelines(0).force, force);
-      EXPECT_EQ(backend->pipelines(0).liquid, liquid);
-      EXPECT_EQ(backend->liquid(0).empty(), !liquid);
       return gather(*backend, 0, grips);
     };
-    const GatheredPlanes all = planes_of(wet, true, true);
-    const GatheredPlanes without_liquid = planes_of(dry, true, false);
+    const GatheredPlanes all = planes_of(wet, true);
+    const GatheredPlanes without_liquid = planes_of(dry, true);
     FieldPlanes untouched = whole_fields(geometry, wet);
     untouched.push_back({FIELD_TERMS, 4});  // fingers, contacts, depth, posture
-    for (const GatheredPlanes& fewer : {without_liquid, planes_of(untilted, false, false), planes_of(bare, false, false)})
+    for (const GatheredPlanes& fewer : {without_liquid, planes_of(untilted, false), planes_of(bare, false)})
       expect_same_or_close(bitwise, wet, Precision::single, grips, all, fewer, untouched, where);
     // the empty glass is the first fill
     const int tilts = static_cast<int>(wet.tilts.size());

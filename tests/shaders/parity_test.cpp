@@ -203,34 +203,6 @@ TEST(Parity, LatticeDistance) {
   }
 }
 
-// Exactly upright, level and inverted; nothing, as good as nothing, brim-full.
-TEST(Parity, LiquidAtItsEnds) {
-  Scene scene = wet_scene({beaker1(), beaker2(), beaker3(), vase(), facets()}, Pose::rigged);
-  scene.liquid->fills = {0, 1e-12, 1e-3, 0.5, 1};
-  scene.tilts = {0, 1e-7, radians(30), radians(60), PI / 2, radians(120), PI};
-  const FieldSet fields = make_field_set({FIELD_SCORE}, scene);
-  const auto truth = make_core_evaluator(scene);
-  for (const Precision precision : {Precision::single, Precision::full}) {
-    const auto backend = backend_of(scene, fields, precision);
-    const auto core = core_of(scene, precision);
-    Comparer comparer(scene, *truth, allowance(precision));
-    for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-      const auto device = backend->liquid(v);
-      comparer.add_liquid(v, device, core_liquid(scene, *core, v));
-      ASSERT_EQ(device.size(), 35u);
-      for (std::size_t t = 0; t < scene.tilts.size(); ++t) {
-        EXPECT_EQ(device[t].volume, 0);  // of an empty vessel
-        EXPECT_EQ(device[t].mass, 0);
-        EXPECT_GE(device[4 * 7 + t].poured, 0);  // of a full one
-      }
-      EXPECT_NEAR(device[4 * 7].volume, truth->capacity(v), 1e-5 * truth->capacity(v));  // upright, all of it
-      EXPECT_EQ(device[4 * 7 + 6].volume, 0);                                            // inverted, nothing
-    }
-    EXPECT_TRUE(comparer.holds()) << table_of(comparer);
-    RecordProperty(precision == Precision::single ? "liquid_float" : "liquid_double", table_of(comparer));
-  }
-}
-
 // ---- what must be noticed ----
 
 // Whether planes of `broken`, by the device or by the core in float, pass for the core's of `scene`.

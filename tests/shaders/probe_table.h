@@ -53,16 +53,6 @@
 #define PROBE_PROJECTION_ROLE 48  // point, touched before; role
 // origin, rates, joint, at, end, steps, blocked, unsettled; next joint: the motion, in this order
 #define PROBE_TURN_JOINT 49
-// probe_liquid; element as above
-#define PROBE_SEGMENT_AREA 60      // r, h; area
-#define PROBE_SEGMENT_MOMENT 61    // r, h; moment
-#define PROBE_ELEMENT_RADIUS 62    // element, y; radius
-#define PROBE_PLANE_CROSSINGS 63   // element, level, sine, cosine, sigma; heights
-#define PROBE_PIECE_BELOW 64       // element, level, sine, cosine; volume, lean, height, surface
-#define PROBE_LIP_CAPACITY 65      // sine, cosine; lip level, bottom level, capacity
-#define PROBE_LIQUID_AT 66         // volume, sine, cosine; volume, lean, height
-#define PROBE_INTEGRATE_SLICES 68  // element, low, high, level, sine, cosine; volume, lean, height, surface
-#define PROBE_LIQUID_BELOW 69      // level, sine, cosine; volume, lean, height, surface
 // probe_force
 #define PROBE_DIRECTIONS 80   // direction, sense, sine, cosine; pour, up
 #define PROBE_LOAD_CENTER 81  // fixed, lean, height, pour; center
@@ -70,14 +60,6 @@
 #define PROBE_FORCES 83       // base, range, torque, reference, opening, max; normal, feedback
 #define PROBE_STRENGTH_AT 87  // opening; share
 #define PROBE_SCORE 86  // fingers, points, phalanx, palm, closure, feedback, max, hold, strength, wrist; terms, posture with it
-// probe_loop; plant: mass, damping, stiffness; wall: stiffness, damping, period, encoder step, force limit, delay, bilateral
-#define PROBE_PROPAGATOR 90   // plant, time; of place, of speed: place, speed, force
-#define PROBE_ADVANCE 91      // plant, place, speed, force, friction, time; place, speed
-#define PROBE_WALL_FORCE 92   // wall without its delay, place, rate; reading, force
-#define PROBE_STEP_LOOP 93    // plant, wall, place, speed, reading, waiting, press, friction; place, speed, reading, waiting
-#define PROBE_LOOP_ENERGY 94  // plant, wall's stiffness, place, speed, press; energy
-#define PROBE_STEPPED 95      // plant, time, integrator, sub-steps; as PROBE_PROPAGATOR
-#define PROBE_LET_GO 96       // wall, place; place, speed, reading, waiting
 // probe_body; radii of finger_in_table: PIP, DIP, tip
 #define PROBE_BALL_BETWEEN 100     // start, end, their radii, share; place, radius
 #define PROBE_NEAREST_SHARE 101    // x; share

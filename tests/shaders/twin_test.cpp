@@ -17,11 +17,11 @@
 namespace {
 
 // The pairs that must exist; others are compared where both files exist.
-const std::vector<std::string> PAIRS = {"hand",  "sdf",  "closure", "contact", "projection", "liquid", "force",
-                                        "score", "trig", "loop",    "table",   "body",       "wrist"};
+const std::vector<std::string> PAIRS = {"hand",  "sdf",  "closure", "contact", "projection", "force",
+                                        "score", "trig", "table",   "body",    "wrist"};
 
 // What C++ passes along as its first parameters and GLSL has as buffers or constants.
-const std::set<std::string> CONTEXT = {"hand", "vessel", "quadrature"};
+const std::set<std::string> CONTEXT = {"hand", "vessel"};
 
 struct Function {
   std::string name;

@@ -19,7 +19,6 @@
 #include "core/force.h"
 #include "core/liquid.h"
 #include "core/load.h"
-#include "core/loop.h"
 #include "core/prepare.h"
 #include "core/projection.h"
 #include "core/score.h"
@@ -39,7 +38,6 @@ namespace {
 // What no row holds: the shaders have it as buffers and constants.
 struct Context {
   Hand hand;
-  Quadrature quadrature;
   Vessel vessel;
 };
 
@@ -52,7 +50,7 @@ struct Out {
 
 // How a parameter is held until the call: context by reference, an answer until it is written, all else by value.
 template <class T>
-constexpr bool IS_CONTEXT = std::is_same_v<T, Hand> || std::is_same_v<T, Quadrature> || std::is_same_v<T, Vessel>;
+constexpr bool IS_CONTEXT = std::is_same_v<T, Hand> || std::is_same_v<T, Vessel>;
 template <class T>
 struct Holder {
   using Type = T;
@@ -76,8 +74,6 @@ struct Row {
   T take() {
     if constexpr (std::is_same_v<T, const Hand&>) {
       return context.hand;
-    } else if constexpr (std::is_same_v<T, const Quadrature&>) {
-      return context.quadrature;
     } else if constexpr (std::is_same_v<T, const Vessel&>) {
       return context.vessel;
     } else {
@@ -131,15 +127,6 @@ struct Row {
     value.mass = 1;
     read_all(value.fixed, value.lean, value.height);
   }
-  void read(Plant& value) { read_all(value.mass, value.damping, value.stiffness); }
-  void read(Motion& value) { read_all(value.place, value.speed); }
-  void read(Wall& value) {
-    read_all(value.stiffness, value.damping, value.period, value.encoder_step, value.force_limit, value.delay, value.is_bilateral);
-  }
-  void read(LoopState& value) {
-    read_all(value.motion, value.reading);
-    for (Real& force : value.waiting) read(force);
-  }
 };
 
 struct Answer {
@@ -187,20 +174,10 @@ struct Answer {
     put_all(value.origin, value.rates, value.joint, value.at, value.end, value.steps, value.blocked, value.unsettled);
   }
   void put(const PaperAxis& value) { put_all(value.direction, value.exists); }
-  void put(const Slices& value) { put_all(value.volume, value.lean, value.height, value.surface); }
-  void put(const LiquidState& value) { put_all(value.volume, value.lean, value.height); }
   void put(const Place& value) { put_all(value.ball, value.velocity, value.acceleration, value.speed, value.bend, value.jerk); }
   void put(const Ball& value) { put_all(value.place, value.radius); }
   void put(const ArmReach& value) { put_all(value.along, value.low, value.aside, value.straight, value.bent); }
   void put(const Wrist& value) { put_all(value.flexion, value.deviation, value.pronation, value.share); }
-  void put(const Propagator& value) {
-    put_all(value.place_place, value.place_speed, value.place_force, value.speed_place, value.speed_speed, value.speed_force);
-  }
-  void put(const Motion& value) { put_all(value.place, value.speed); }
-  void put(const LoopState& value) {
-    put_all(value.motion, value.reading);
-    for (const Real force : value.waiting) put(force);
-  }
   template <class... Ts>
   void put(const std::tuple<Ts...>& values) {
     std::apply([this](const auto&... each) { this->put_all(each...); }, values);
@@ -307,28 +284,6 @@ std::tuple<Real, Real, Real, Real, Real, Real, Real> score_terms(int fingers, in
           force_term(feedback, max), hold_term(hold, strength), wrist_term(posture, wrist)};
 }
 
-Motion advanced(Plant plant, Motion motion, Real force, Real friction, Real time) {
-  const Propagator by = propagator(plant, time);
-  return friction > 0 ? advance_with_friction(plant, by, motion, force, friction, time) : advance(by, motion, force);
-}
-
-std::tuple<Real, Real> wall_answer(Real stiffness, Real damping, Real period, Real encoder_step, Real force_limit,
-                                   bool is_bilateral, Real place, Real rate) {
-  const Wall wall{stiffness, damping, period, encoder_step, force_limit, 0, is_bilateral};
-  const Real reading = read_encoder(place, wall.encoder_step);
-  return {reading, wall_force(wall, reading, rate)};
-}
-
-LoopState loop_step(Plant plant, Wall wall, LoopState state, Real press, Real friction) {
-  return step_loop(plant, propagator(plant, wall.period), wall, state, press, friction);
-}
-
-Real energy_of(Plant plant, Real stiffness, Motion motion, Real press) {
-  Wall wall;
-  wall.stiffness = stiffness;
-  return loop_energy(plant, wall, motion, press);
-}
-
 // ---- the table ----
 
 struct LeafEntry {
@@ -380,16 +335,6 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_PROJECT_POINT, answers_of<project_point>},
     {PROBE_TURN_JOINT, answers_of<turn_joint>},
     {PROBE_PROJECTION_ROLE, answers_of<projection_role>},
-    // liquid
-    {PROBE_SEGMENT_AREA, answers_of<segment_area>},
-    {PROBE_SEGMENT_MOMENT, answers_of<segment_moment>},
-    {PROBE_ELEMENT_RADIUS, answers_of<element_radius>},
-    {PROBE_PLANE_CROSSINGS, answers_of<plane_crossings>},
-    {PROBE_PIECE_BELOW, answers_of<piece_below>},
-    {PROBE_INTEGRATE_SLICES, answers_of<integrate_slices>},
-    {PROBE_LIQUID_BELOW, answers_of<liquid_below>},
-    {PROBE_LIP_CAPACITY, answers_of<lip_level, bottom_level, lip_capacity>},
-    {PROBE_LIQUID_AT, answers_of<liquid_at>},
     // force and score
     {PROBE_DIRECTIONS, answers_of<directions>},
     {PROBE_LOAD_CENTER, answers_of<load_center>},
@@ -397,14 +342,6 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_FORCES, answers_of<forces>},
     {PROBE_STRENGTH_AT, answers_of<strength_at>},
     {PROBE_SCORE, answers_of<score_terms>},
-    // loop
-    {PROBE_PROPAGATOR, answers_of<propagator>},
-    {PROBE_STEPPED, answers_of<stepped_propagator>},
-    {PROBE_LET_GO, answers_of<let_go>},
-    {PROBE_ADVANCE, answers_of<advanced>},
-    {PROBE_WALL_FORCE, answers_of<wall_answer>},
-    {PROBE_STEP_LOOP, answers_of<loop_step>},
-    {PROBE_LOOP_ENERGY, answers_of<energy_of>},
     // body and table
     {PROBE_BALL_BETWEEN, answers_of<ball_between>},
     {PROBE_AROUND_BONE, answers_of<around_bone>},
@@ -420,13 +357,12 @@ constexpr LeafEntry LEAVES[] = {
 class CoreLeaves final : public wholehand::Leaves {
  public:
   CoreLeaves(const wholehand::Scene& scene, std::size_t v, int lattice_samples, int lattice_bits)
-      : context_{load_hand(wholehand::prepare_hand(scene.hand), scene.hand),
-                 load_quadrature(wholehand::prepare_quadrature(QUADRATURE_POINTS)),
-                 {}} {
+      : context_{load_hand(wholehand::prepare_hand(scene.hand), scene.hand), {}} {
     const wholehand::VesselData& data = scene.vessels[v];
     const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.wall > 0);
     Vessel& vessel = context_.vessel;
-    vessel = load_vessel(prepared, data, context_.quadrature, scene.liquid.has_value(), scene.hand.handedness);
+    vessel = load_vessel(prepared, data, load_quadrature(wholehand::prepare_quadrature(wholehand::QUADRATURE_POINTS)),
+                         scene.liquid.has_value(), scene.hand.handedness);
     vessel.on_table = scene.table.has_value();
     if (scene.table) vessel.table_top = Real(wholehand::table_top(scene, data));
     vessel.arm = load_arm(scene, data);

@@ -182,8 +182,6 @@ Builder& Builder::frame(const Triple& base) {
   return vec(base).vec(forward).vec(across);
 }
 
-bool rises(const double* element) { return element[1] < element[3]; }
-
 Scene vessels_scene() {
   Scene scene = three_beakers();
   VesselData bent = vase();

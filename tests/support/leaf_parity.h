@@ -126,9 +126,6 @@ struct Builder {
   Table table;
 };
 
-// A piece of a cavity rises, and may do so by less than an input is moved.
-bool rises(const double* element);
-
 // The three beakers, the vase and a shell.
 Scene vessels_scene();
 constexpr std::size_t VASE = 3, SHELL = 4;

@@ -45,8 +45,6 @@ LeafProbe::LeafProbe(const host::Device& device, const Scene& scene, std::size_t
   hand_ = upload(device, precision, arrays.hand);
   outline_ = upload(device, precision, vessel.outline, std::size_t(OUTLINE_STRIDE) * MAX_OUTLINE);
   lattice_ = host::Buffer::of(device, vessel.lattice ? *vessel.lattice : std::vector<std::uint32_t>(4));
-  cavity_ = upload(device, precision, vessel.cavity);
-  quadrature_ = upload(device, precision, arrays.quadrature);
   constants_ = {{CONST_SDF_KIND, std::int32_t(vessel.lattice ? SDF_LATTICE : SDF_OUTLINE)},
                 {CONST_LATTICE_BITS, std::int32_t(lattice_bits)},
                 {CONST_OUTLINE_COUNT, std::int32_t(vessel.outline_count)},
@@ -67,8 +65,6 @@ std::vector<double> LeafProbe::run(std::string_view shader, int probe, const std
   commands.bind(BINDING_HAND, hand_);
   commands.bind(BINDING_OUTLINE, outline_);
   commands.bind(BINDING_LATTICE, lattice_);
-  commands.bind(BINDING_CAVITY, cavity_);
-  commands.bind(BINDING_QUADRATURE, quadrature_);
   commands.bind(BINDING_GRIPS, in);
   commands.bind(BINDING_REAL_OUT, out);
   commands.dispatch(

@@ -29,7 +29,7 @@ class LeafProbe {
   Precision precision_;
   OutlineSource source_;
   std::vector<host::Constant> constants_;
-  host::Buffer parameters_, hand_, outline_, lattice_, cavity_, quadrature_;
+  host::Buffer parameters_, hand_, outline_, lattice_;
 };
 
 }  // namespace wholehand

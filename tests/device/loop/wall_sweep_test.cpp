@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/text/error.h"
 #include "tests/support/result_reader.h"
-#include "tests/support/vulkan_listener.h"
 
 namespace wholehand {
 namespace {
@@ -31,8 +29,6 @@ void every_passive_point_settles(const std::vector<WallSheet>& sheets) {
 }
 
 // The two points of a column that the limit lies between, on every sheet that theory covers: no encoder, no friction, exact motion.
-// Float moves the limit by less than the points are apart: a growth of 1e-7 a sample is what its roundings hide, and a millionth of
-// K more grows as fast.
 void the_linear_limit_lies_where_it_changes(const std::vector<WallSheet>& sheets) {
   std::size_t columns = 0;
   for (const char* name : {"stiffness_damping_rate", "delay", "finger"})
@@ -58,7 +54,6 @@ void encoder_and_friction_settle_up_to_their_bound(const std::vector<WallSheet>&
       }
 }
 
-// Explicit Euler takes from the limit, semi-implicit adds to it, and both come nearer with their sub-steps.
 // Explicit Euler takes from the limit, semi-implicit adds to it, and both come nearer with their sub-steps, to first order.
 TEST(WallSweep, IntegratorsMoveTheLimit) {
   WallDevice device;
@@ -93,43 +88,17 @@ void tables_have_a_row_a_point_and_a_row_a_column(const std::vector<WallSheet>& 
 
 // One test, since the maps are what takes time.
 TEST(WallSweep, MapsAgreeWithTheory) {
-  BackendInfo info;
-  double seconds = 0;
   std::vector<WallSheet> sheets = wall_sheets(true, 1);
-  run_walls(sheets, open_wall_runner("vulkan", info, seconds));
-  EXPECT_EQ(info.backend, "vulkan");
-  EXPECT_GT(seconds, 0);
+  run_walls(sheets);
   every_passive_point_settles(sheets);
   the_linear_limit_lies_where_it_changes(sheets);
   encoder_and_friction_settle_up_to_their_bound(sheets);
   tables_have_a_row_a_point_and_a_row_a_column(sheets);
 }
 
-TEST(WallSweep, CoreGivesTheSameVerdicts) {
-  const auto all = wall_sheets(true, 1);
-  std::vector<WallSheet> by_core{{"few", {}}};
-  const auto& columns = sheet_named(all, "stiffness_damping_rate").columns;
-  for (std::size_t k = 0; k < columns.size(); k += 23) by_core[0].columns.push_back(columns[k]);
-  std::vector<WallSheet> by_device = by_core;
-  BackendInfo info;
-  double seconds = 0;
-  run_walls(by_device, open_wall_runner("vulkan", info, seconds));
-  run_walls(by_core, open_wall_runner("core", info, seconds));
-  EXPECT_EQ(info.backend, "core");
-  for (std::size_t c = 0; c < by_core[0].columns.size(); ++c)
-    for (std::size_t p = 0; p < by_core[0].columns[c].points.size(); ++p)
-      EXPECT_EQ(by_core[0].columns[c].points[p].settles(), by_device[0].columns[c].points[p].settles());
-}
-
 TEST(WallSheets, AFullRunHasMoreThanAHundredThousandPoints) {
   const auto sheets = wall_sheets(false, 1);
   EXPECT_GE(sheet_named(sheets, "stiffness_damping_rate").columns.size() * 96, 100000u);
-}
-
-TEST(WallSheets, UnknownDeviceIsRefused) {
-  BackendInfo info;
-  double seconds = 0;
-  EXPECT_THROW(open_wall_runner("no such device", info, seconds), Error);
 }
 
 }  // namespace
