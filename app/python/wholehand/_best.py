@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._errors import Error
+from ._errors import Error, wrong_type
 from ._scene import Scene, check_types
 
 if TYPE_CHECKING:
@@ -181,7 +181,7 @@ def best(
     import xarray as xr
 
     if by is not None and not isinstance(by, (str, xr.DataArray)):
-        raise TypeError(f"best: by is {type(by).__name__}; allowed: the name of a variable, or a DataArray")
+        raise wrong_type("best", "by", by, "the name of a variable, or a DataArray")
     if where is not None and not isinstance(where, xr.DataArray):
         said = repr(where) if isinstance(where, str) else type(where).__name__
         raise TypeError(f"best: where is {said}; allowed: a DataArray of truths, as data.fingers_used >= 4")
@@ -189,7 +189,7 @@ def best(
     check_types("best", "core", n=n)
     count = n if n is not None else int(data.sizes.get("rank", 0)) or scene._core.best or _BEST_WHERE_NONE
     if apart_mm is not None and not isinstance(apart_mm, (int, float, np.floating, np.integer)):
-        raise TypeError(f"best: apart_mm is {type(apart_mm).__name__}; allowed: a number")
+        raise wrong_type("best", "apart_mm", apart_mm, "a number")
     apart = scene._core.apart if apart_mm is None else float(apart_mm) / 1e3
     if count < 1 or not apart >= 0 or not np.isfinite(apart):
         raise Error(f"best: n is {n} and apart_mm is {apart_mm}; allowed: n of 1 or more, apart_mm of 0 or more")

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._errors import Error, warn
+from ._errors import Error, warn, wrong_type
 from ._evaluate import grip_columns
 from ._scene import SceneLike, check_truths, check_types, scene as as_scene, vessel_number
 
@@ -194,11 +194,11 @@ def _states(states: list[dict[str, Any]]) -> xr.Dataset:
 
 def _number(value: Any, name: str) -> float:
     if isinstance(value, (str, bytes)):  # which float() would read
-        raise TypeError(f"grip: {name} is {type(value).__name__}; allowed: a number")
+        raise wrong_type("grip", name, value, "a number")
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"grip: {name} is {type(value).__name__}; allowed: a number") from None
+        raise wrong_type("grip", name, value, "a number") from None
 
 
 def _three(values: Sequence[float], name: str) -> list[float]:
@@ -218,7 +218,7 @@ def _list(values: float | Sequence[float] | None, name: str) -> list[float] | No
     except (TypeError, ValueError):
         array = np.empty(0, object)
     if array.dtype.kind not in "fiu" or array.ndim > 1:
-        raise TypeError(f"grip: {name} is {type(values).__name__}; allowed: a number, or a list of numbers")
+        raise wrong_type("grip", name, values, "a number, or a list of numbers")
     return [float(one) for one in np.atleast_1d(array)]
 
 

@@ -9,17 +9,13 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from ._errors import Error
+from ._errors import Error, encodable
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def _text(value: str) -> str:
-    try:
-        value.encode()
-    except UnicodeEncodeError:
-        raise Error(f"dict: the text {value!r} has a character that is none; allowed: Unicode") from None
-    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return json.dumps(encodable(value, "dict: the text "), ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _key(key: object, place: str) -> str:
