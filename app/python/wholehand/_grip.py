@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _JOINTS = 24
+_DEFAULTS = {"azimuth_deg": 0.0, "obliquity_deg": 0.0, "roll_deg": 0.0, "offset_mm": 0.0, "hand_scale": 1.0}
 # Suffixes of the JSON's names, and the unit that each stands for.
 _UNITS = {"rad": "rad", "m3": "m3", "kg": "kg", "m": "m", "Nm": "N m", "N": "N"}
 
@@ -222,38 +223,21 @@ def _list(values: float | Sequence[float] | None, name: str) -> list[float] | No
     return [float(one) for one in np.atleast_1d(array)]
 
 
-def _asked(
-    at: Any,
-    height_mm: float | None,
-    thumb_mm: Sequence[float] | None,
-    index_mm: Sequence[float] | None,
-    further: dict[str, float | None],
-) -> list[float]:
-    """The six numbers of the grip, SI. `further`: azimuth_deg, obliquity_deg, roll_deg, offset_mm, hand_scale."""
-    given = [name for name, value in further.items() if value is not None]
-    if at is not None:
-        _exclude(["height_mm"] * (height_mm is not None) + ["thumb_mm"] * (thumb_mm is not None) + given, "at")
-    elif thumb_mm is not None and index_mm is not None:
-        _exclude(
-            ["--height-mm"] * (height_mm is not None)
-            + ["--" + name.replace("_", "-") for name in given if name not in ("roll_deg", "hand_scale")],
-            "--thumb-mm",
-        )
-    if sum(one is not None for one in (at, height_mm, thumb_mm)) != 1 or (thumb_mm is None) != (index_mm is None):
-        raise Error(
-            "grip: the place of the grip is missing or given twice; give height or height_mm, or thumb_mm and index_mm, or at"
-        )
-    if at is not None:
-        columns = grip_columns([at] if not hasattr(at, "dtype") and not hasattr(at, "keys") else _row(at))
-        if len(columns[0]) != 1:
-            raise Error(f"grip: at has {len(columns[0])} grips; allowed: one")
-        return [float(column[0]) for column in columns]
-    azimuth, obliquity, roll, offset, hand_scale = (
-        _number(default if value is None else value, name) for (name, value), default in zip(further.items(), (0, 0, 0, 0, 1))
-    )
-    if thumb_mm is not None and index_mm is not None:
-        return _core.grip_between(_three(thumb_mm, "thumb_mm"), _three(index_mm, "index_mm"), roll, hand_scale)
-    return _core.grip_at(_number(height_mm, "height_mm"), azimuth, obliquity, roll, offset, hand_scale)
+def _only_grip(at: Any) -> list[float]:
+    """The numbers of one grip, as ``wh.evaluate`` takes many."""
+    import numpy as np
+
+    if hasattr(at, "keys"):
+        table = at
+    elif hasattr(at, "dtype"):
+        array = np.asarray(at)
+        table = array[np.newaxis] if array.ndim == (0 if array.dtype.names is not None else 1) else array
+    else:
+        table = [at]
+    columns = grip_columns(table)
+    if len(columns[0]) != 1:
+        raise Error(f"grip: at has {len(columns[0])} grips; allowed: one")
+    return [float(column[0]) for column in columns]
 
 
 def _exclude(given: list[str], other: str) -> None:
@@ -261,14 +245,48 @@ def _exclude(given: list[str], other: str) -> None:
         raise Error(f"{given[0]} excludes {other}")
 
 
-def _row(at: Any) -> Any:
-    """A single grip of an array as an array of one."""
-    import numpy as np
+def _check_place(at: Any, index_mm: Any, in_units: dict[str, Any], in_si: dict[str, Any]) -> None:
+    """Raises Error where the place of the grip is missing or given twice."""
+    has_thumb, has_index = "thumb_mm" in in_units, index_mm is not None
+    if at is not None:
+        _exclude([*in_si, *in_units], "at")
+    elif has_thumb:
+        further = [name for name in in_units if has_index and name not in ("thumb_mm", "roll_deg", "hand_scale")]
+        _exclude([*in_si, *("--" + name.replace("_", "-") for name in further)], "--thumb-mm")
+    if (at is not None) + ("height_mm" in in_units) + has_thumb != 1 or has_thumb != has_index:
+        raise Error(
+            "grip: the place of the grip is missing or given twice; give height or height_mm, or thumb_mm and index_mm, or at"
+        )
 
-    if hasattr(at, "data_vars") or hasattr(at, "keys"):
-        return at
-    array = np.asarray(at)
-    return array[np.newaxis] if array.ndim == (0 if array.dtype.names is not None else 1) else array
+
+def _given(numbers: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in numbers.items() if value is not None}
+
+
+def _asked(at: Any, index_mm: Any, in_units: dict[str, Any], in_si: dict[str, Any]) -> list[float]:
+    """The six numbers of the grip, SI. `in_units` are those that are given of height_mm, thumb_mm, azimuth_deg, obliquity_deg,
+    roll_deg, offset_mm and hand_scale, `in_si` those of height, azimuth, obliquity, roll and offset.
+    """
+    if "thumb_mm" in in_units and "roll" in in_si and "roll_deg" not in in_units:
+        in_units["roll_deg"] = math.degrees(_number(in_si.pop("roll"), "roll"))
+    if in_si and at is None and "thumb_mm" not in in_units:
+        at, in_units, in_si = {name: _number(value, name) for name, value in (in_units | in_si).items()}, {}, {}
+    _check_place(at, index_mm, in_units, in_si)
+    if at is not None:
+        return _only_grip(at)
+    azimuth, obliquity, roll, offset, hand_scale = (_number(in_units.get(name, one), name) for name, one in _DEFAULTS.items())
+    if "thumb_mm" in in_units:
+        return _core.grip_between(_three(in_units["thumb_mm"], "thumb_mm"), _three(index_mm, "index_mm"), roll, hand_scale)
+    return _core.grip_at(_number(in_units["height_mm"], "height_mm"), azimuth, obliquity, roll, offset, hand_scale)
+
+
+def _states_asked(fills: Any, fills_ml: Any, tilts: Any, tilts_deg: Any) -> list[list[float] | None]:
+    """The fills, the volumes in mL and the tilts in degrees. None: the scene's."""
+    if tilts is not None:
+        if tilts_deg is not None:
+            raise Error("grip: both tilts and tilts_deg are given; allowed: one of the two")
+        tilts_deg = [math.degrees(one) for one in _list(tilts, "tilts") or []]
+    return [_list(values, name) for name, values in (("fills", fills), ("fills_ml", fills_ml), ("tilts_deg", tilts_deg))]
 
 
 def grip(
@@ -315,10 +333,9 @@ def grip(
     at : array, optional
         Instead of all these: one grip as ``wh.evaluate`` takes them, say six numbers in SI units, a row of a structured array
         (``wh.GRIP``), or one grip of ``wh.best``.
-    fills, fills_ml : float or list of float, optional
-        The fills of the states: fractions of the capacity, as ``scene.fills(vessel)`` has them, or mL. Default: the scene's.
-    tilts, tilts_deg : float or list of float, optional
-        The tilts of the states: rad, as ``scene.tilts`` has them, or degrees. Default: the scene's.
+    fills, fills_ml, tilts, tilts_deg : float or list of float, optional
+        The states: fills as fractions of the capacity or in mL, tilts in rad or degrees. Default: ``scene.fills(vessel)`` and
+        ``scene.tilts``.
     on : str
         "auto" (the default: the core, as one grip is too little for a device), "core", "vulkan" or the name of a device.
     precision : {"float", "double"}, optional
@@ -344,29 +361,11 @@ def grip(
     number = vessel_number(of, vessel)
     check_types("grip", on, precision)
     check_truths("grip", quality=quality)
-    further = {
-        "azimuth_deg": azimuth_deg,
-        "obliquity_deg": obliquity_deg,
-        "roll_deg": roll_deg,
-        "offset_mm": offset_mm,
-        "hand_scale": hand_scale,
-    }
+    angles = {"azimuth_deg": azimuth_deg, "obliquity_deg": obliquity_deg, "roll_deg": roll_deg}
+    in_units = {"height_mm": height_mm, "thumb_mm": thumb_mm, **angles, "offset_mm": offset_mm, "hand_scale": hand_scale}
     in_si = {"height": height, "azimuth": azimuth, "obliquity": obliquity, "roll": roll, "offset": offset}
-    if thumb_mm is not None and roll is not None and roll_deg is None:
-        further["roll_deg"], in_si["roll"] = _number(roll, "roll") * (180 / math.pi), None
-    if any(value is not None for value in in_si.values()):
-        if at is not None or thumb_mm is not None:
-            _exclude([name for name, value in in_si.items() if value is not None], "at" if at is not None else "--thumb-mm")
-        named = {"height_mm": height_mm, **further, **in_si}
-        at = {name: _number(value, name) for name, value in named.items() if value is not None}
-        asked = _asked(at, None, None, index_mm, dict.fromkeys(further))
-    else:
-        asked = _asked(at, height_mm, thumb_mm, index_mm, further)
-    if tilts is not None:
-        if tilts_deg is not None:
-            raise Error("grip: both tilts and tilts_deg are given; allowed: one of the two")
-        tilts_deg = [one * (180 / math.pi) for one in _list(tilts, "tilts") or []]
-    states = [_list(values, name) for name, values in (("fills", fills), ("fills_ml", fills_ml), ("tilts_deg", tilts_deg))]
+    asked = _asked(at, index_mm, _given(in_units), _given(in_si))
+    states = _states_asked(fills, fills_ml, tilts, tilts_deg)
     made = Grip(of, number, asked, *states, on, precision, quality)
     warn(of._core.float_notes(precision, "core" if on == "auto" else on))
     return made
