@@ -58,7 +58,9 @@ def _limits(scene: _core.Scene, data: xr.Dataset, n: int | None, apart_mm: float
 def _criterion(scene: _core.Scene, data: xr.Dataset, by: By | None, least_bad: bool) -> tuple[By, bool]:
     """What ranks the grips, and whether the core ranks the best of them again by their robust scores. Raises Error."""
     if least_bad and not scene.has_effort:
-        raise Error("best: least_bad needs efforts, which the scene does not have ([tilts], and [strength] without efforts = false)")
+        raise Error(
+            "best: least_bad needs efforts, which the scene does not have ([tilts], and [strength] without efforts = false)"
+        )
     if by is None:
         by = "robust" if scene.has_robust else "score"
     if not isinstance(by, str) or by != "robust" or by in data:

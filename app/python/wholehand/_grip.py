@@ -42,7 +42,7 @@ class Grip(Mapping[str, Any]):
     """One grip and everything that ``wholehand grip --json`` reports of it. Made by ``wh.grip``.
 
     A mapping from the names of that JSON (docs/grip.md) to its values: lists of numbers are arrays, SI units, points in the
-    vessel's frame. ``str(grip)`` is the program's table; a notebook shows the drawing. A pickled grip is what was asked for.
+    vessel's frame. ``str(grip)`` is the program's table; a notebook shows the drawing. A pickled grip is evaluated again.
     """
 
     def __init__(self, *asked: Any) -> None:
@@ -59,7 +59,6 @@ class Grip(Mapping[str, Any]):
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[type[Grip], tuple[Any, ...]]:
-        # a pickled grip is what was asked for: it is evaluated again
         return Grip, self._asked
 
     def __getitem__(self, name: str) -> Any:
@@ -182,14 +181,14 @@ def _states(states: list[dict[str, Any]]) -> xr.Dataset:
         raise Error("states: a fill or a tilt was asked for twice")
     data = xr.Dataset(coords={"fill": ("fill", fills, {"units": "1"}), "tilt": ("tilt", tilts, {"units": "rad"})})
     for key, first in states[0].items():
-        values = [one.get(key) for one in states]
+        is_point = key in ("liquid_com_m", "com_m")
+        if key in ("fill", "tilt_rad", "worst_direction") or (isinstance(first, list) and not is_point):
+            continue
         name, unit = _named(key)
-        if key in ("liquid_com_m", "com_m"):
-            table = np.array([[np.nan] * 3 if v is None else v for v in values], dtype=np.float64)
-            data[name] = ("fill", "tilt", "xyz"), table.reshape(len(fills), len(tilts), 3), {"units": unit}
-        elif key not in ("fill", "tilt_rad") and not isinstance(first, list) and key != "worst_direction":
-            numbers = np.array([np.nan if v is None else v for v in values], dtype=np.float64)
-            data[name] = ("fill", "tilt"), numbers.reshape(len(fills), len(tilts)), {"units": unit}
+        missing = [np.nan] * 3 if is_point else np.nan
+        values = np.array([missing if one.get(key) is None else one[key] for one in states], dtype=np.float64)
+        dims = ("fill", "tilt", "xyz") if is_point else ("fill", "tilt")
+        data[name] = dims, values.reshape(len(fills), len(tilts), *values.shape[1:]), {"units": unit}
     return data
 
 

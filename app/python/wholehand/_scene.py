@@ -111,8 +111,8 @@ def scene(source: SceneLike = "three_beakers", *, file: str | os.PathLike[str] |
     ----------
     source : str, path or dict
         The name of a scene that is shipped (``wh.scenes()``), the path of a TOML file, a TOML text (a ``str`` of more than one
-        line), or a dict with the keys of docs/scene.md. NumPy's numbers and arrays are allowed in a dict, and paths (``pathlib.Path``)
-        as texts. A Scene is returned as it is.
+        line), or a dict with the keys of docs/scene.md, which may have NumPy's numbers and arrays, and paths (``pathlib.Path``) as
+        texts. A Scene is returned as it is.
     file : path, optional
         For a text or a dict: the file that it stands for in messages. Meshes are looked for from its folder, else from the current
         one.
@@ -165,7 +165,7 @@ def new(
     fill_ml: float | None = None,
     **numbers: float,
 ) -> Scene:
-    """A complete scene of one vessel: table, arm, liquid, strength, grips, tilts, deviations. Its ``text`` is commented TOML to edit.
+    """A complete scene of one vessel: table, arm, liquid, strength, grips, tilts, deviations. Its ``text`` is commented TOML.
 
     Parameters
     ----------

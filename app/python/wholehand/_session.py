@@ -55,7 +55,7 @@ class Session:
         position : array of shape (3,)
             The middle between the two tracked points, m, device frame: +x to the right, +y up, +z towards the person.
         rotation : array of shape (3, 3), optional
-            From the gripper's frame to the device frame. Default: no rotation, the palm away from the person.
+            The gripper's, in the device frame. Default: no rotation, the palm away from the person.
         gap : float, optional
             Between the two tracked points, m. Default: open.
         buttons : int

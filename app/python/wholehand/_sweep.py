@@ -103,8 +103,6 @@ def sweep(
 
     >>> import wholehand as wh
     >>> data = wh.sweep("small", on="core")
-    >>> data.score.dims
-    ('vessel', 'azimuth', 'obliquity', 'roll', 'offset', 'hand_scale', 'height')
     >>> data.height.attrs["units"], float(data.score.max().round(4))
     ('m', 0.9305)
     """

@@ -42,10 +42,11 @@ def _value(value: Any, place: str) -> str:
     if isinstance(value, str):
         return _text(value)
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_key(k, place)} = {_value(v, f'{place}.{k}')}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(_lines(value, place)) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(one, place) for one in value) + "]"
-    raise Error(f"dict: {place} is {type(value).__name__}; allowed: a number, a text, a path, a truth value, a list or a dict of them")
+    allowed = "a number, a text, a path, a truth value, a list or a dict of them"
+    raise Error(f"dict: {place} is {type(value).__name__}; allowed: {allowed}")
 
 
 def _is_tables(value: Any) -> bool:
