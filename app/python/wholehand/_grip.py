@@ -223,7 +223,7 @@ def _list(values: float | Sequence[float] | None, name: str) -> list[float] | No
 
 
 def _only_grip(at: Any) -> list[float]:
-    """The numbers of one grip, as ``wh.evaluate`` takes many."""
+    """The six numbers of one grip, which is given as ``wh.evaluate`` takes many."""
     import numpy as np
 
     if hasattr(at, "keys"):
@@ -273,14 +273,16 @@ def _asked(at: Any, index_mm: Any, in_units: dict[str, Any], in_si: dict[str, An
     _check_place(at, index_mm, in_units, in_si)
     if at is not None:
         return _only_grip(at)
-    azimuth, obliquity, roll, offset, hand_scale = (_number(in_units.get(name, one), name) for name, one in _DEFAULTS.items())
+    azimuth, obliquity, roll, offset, hand_scale = (
+        _number(in_units.get(name, default), name) for name, default in _DEFAULTS.items()
+    )
     if "thumb_mm" in in_units:
         return _core.grip_between(_three(in_units["thumb_mm"], "thumb_mm"), _three(index_mm, "index_mm"), roll, hand_scale)
     return _core.grip_at(_number(in_units["height_mm"], "height_mm"), azimuth, obliquity, roll, offset, hand_scale)
 
 
 def _states_asked(fills: Any, fills_ml: Any, tilts: Any, tilts_deg: Any) -> list[list[float] | None]:
-    """The fills, the volumes in mL and the tilts in degrees. None: the scene's."""
+    """Fills as fractions, fills in mL and tilts in degrees. None: the scene's."""
     if tilts is not None:
         if tilts_deg is not None:
             raise Error("grip: both tilts and tilts_deg are given; allowed: one of the two")
