@@ -29,9 +29,6 @@ class Check:
         """
         return [{"comparison": one["name"], **row} for one in self.report["comparisons"] for row in one["quantities"]]
 
-    def __str__(self) -> str:
-        return self.text
-
     def __repr__(self) -> str:
         return self.text
 

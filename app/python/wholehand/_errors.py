@@ -35,6 +35,20 @@ class Note(UserWarning):
     """A line that the program prints on standard error beside its work: what a scene may not mean, or where float is not enough."""
 
 
+def wrong_type(call: str, name: str, value: object, allowed: str) -> TypeError:
+    """For an argument of a type that a call does not take."""
+    return TypeError(f"{call}: {name} is {type(value).__name__}; allowed: {allowed}")
+
+
+def encodable(text: str, what: str = "") -> str:
+    """The text itself. Raises Error for lone surrogates, which UTF-8 cannot encode."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise Error(f"{what}{text!r} has a character that is none; allowed: Unicode") from None
+    return text
+
+
 def warn(lines: Iterable[str], above: int = 0) -> None:
     """Each line as a Note at the place of the call that the user wrote: that of the caller, or of so many above it."""
     for line in lines:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _core
@@ -17,14 +17,7 @@ if TYPE_CHECKING:
 
 _COLUMNS: tuple[str, ...] = _core.GRIP_COLUMNS
 _DEFAULTS = (None, 0.0, 0.0, 0.0, 0.0, 1.0)  # of a column that is not given
-# The names of a scene file, whose ends are units: the column that each stands for, and how it becomes SI.
-_IN_UNITS: dict[str, tuple[str, Callable[[Any], Any]]] = {
-    "height_mm": ("height", lambda mm: mm / 1e3),
-    "azimuth_deg": ("azimuth", lambda deg: deg * (math.pi / 180)),
-    "obliquity_deg": ("obliquity", lambda deg: deg * (math.pi / 180)),
-    "roll_deg": ("roll", lambda deg: deg * (math.pi / 180)),
-    "offset_mm": ("offset", lambda mm: mm / 1e3),
-}
+_IN_UNITS = ("height_mm", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm")  # a scene file's names of columns
 
 
 def grip_dtype() -> np.dtype[np.void]:
@@ -64,12 +57,14 @@ def _of_fields(given: Mapping[str, Any]) -> list[npt.NDArray[np.float64]]:
     if unknown:
         raise Error(f"grips: no column {', '.join(map(repr, unknown))}; allowed: {', '.join([*_COLUMNS, *_IN_UNITS])}")
     given = dict(given)
-    for name, (column, to_si) in _IN_UNITS.items():
+    for name in _IN_UNITS:
         if name not in given:
             continue
+        column, _, unit = name.partition("_")
         if column in given:
             raise Error(f"grips: both {column} and {name} are given; allowed: one of the two")
-        given[column] = to_si(_numbers(name, given.pop(name)))
+        numbers = _numbers(name, given.pop(name))
+        given[column] = numbers / 1e3 if unit == "mm" else numbers * (math.pi / 180)
     if "height" not in given:
         raise Error("grips: the column 'height' is missing (or 'height_mm'); the others have defaults")
     columns = [_numbers(name, given.get(name, default)) for name, default in zip(_COLUMNS, _DEFAULTS)]
@@ -111,7 +106,7 @@ def grips_of(data: Any) -> npt.NDArray[np.void]:
     Parameters
     ----------
     data : xarray.Dataset
-        Of ``wh.best``, or of ``wh.sweep`` with one vessel selected.
+        From ``wh.best``, or from ``wh.sweep`` with one vessel selected.
 
     Returns
     -------
@@ -155,8 +150,8 @@ def evaluate(
 ) -> dict[str, npt.NDArray[Any]]:
     """Evaluates grips of one vessel: as many as you like, and of each the variables that you name.
 
-    The interpreter's lock is released meanwhile. What computes is kept in the scene, so that the next call with the same variables,
-    device and precision begins at once. Calls from several threads wait for each other where they use the same one.
+    Releases the interpreter's lock. The scene keeps what computes, so that the next call with the same variables, device and
+    precision begins at once. Threads that use the same one wait for each other.
 
     Parameters
     ----------
@@ -164,16 +159,10 @@ def evaluate(
     vessel : str or int
         A name or a number of ``scene.vessels``.
     grips : array
-        N grips, as one of
-
-        - an array of shape (N, 6) with the columns height (m), azimuth (rad), obliquity (rad), roll (rad), offset (m) and
-          hand_scale (1: the scene's own hand), in the vessel's frame;
-        - a structured array with these names (``wh.GRIP``), a dict of columns, or a pandas DataFrame. All but height may be
-          missing: they are 0, and hand_scale is 1. The names of ``wh.grip`` with a unit are allowed too, in that unit: height_mm,
-          azimuth_deg, obliquity_deg, roll_deg, offset_mm;
-        - a Dataset of ``wh.best``.
-
-        Columns of float64 are read where they lie, whatever their strides. Others are copied.
+        Shape (N, 6), vessel's frame: height (m), azimuth (rad), obliquity (rad), roll (rad), offset (m) and hand_scale (1: the
+        scene's own hand). Or a Dataset of ``wh.best``. Or a structured array (``wh.GRIP``), a dict of columns or a pandas
+        DataFrame, with these names or those with a unit: height_mm, azimuth_deg, obliquity_deg, roll_deg, offset_mm. All but
+        height may then be missing: they are 0, and hand_scale is 1. Columns of float64 are not copied, whatever their strides.
     variables : str or list of str, optional
         Names of ``scene.variables()``. Default: what a sweep of the scene keeps.
     on : str
@@ -182,15 +171,15 @@ def evaluate(
     precision : {"float", "double"}, optional
         Default: double on the core and with "auto", float on a device that is named.
     threads : int
-        Of the core; 0: all.
+        Threads of the core; 0: all.
 
     Returns
     -------
     dict of numpy.ndarray
-        An array for each variable, in the order asked. Its first dimension is the grip: (N,), (N, fills, tilts), (N, 24, 3), ... as
-        ``scene.variables()[name].dims`` says. Fills and tilts are those of the scene: ``scene.fills(vessel)``, fractions of the
-        capacity, and ``scene.tilts``, rad. Reals are float64, or float32 in float. Truths, counts and reasons are int8, masks
-        are uint8 or uint32. What an infeasible grip lacks is NaN, -1, or a mask without bits.
+        An array for each variable, in the order asked. Its first dimension is the grip, the others are those of
+        ``scene.variables()[name].dims``: (N,), (N, fills, tilts), (N, 24, 3), ... Fills are ``scene.fills(vessel)``, fractions of
+        the capacity, tilts ``scene.tilts``, rad. Reals are float64, or float32 in float; truths, counts and reasons int8; masks
+        uint8 or uint32. What an infeasible grip lacks is NaN, -1, or a mask without bits.
 
     Raises
     ------
@@ -198,19 +187,11 @@ def evaluate(
         A vessel, variable, device or precision that is not there; arrays of another shape; a number that is not finite or that no
         scene may have, with its row.
 
-    >>> import numpy as np
     >>> import wholehand as wh
-    >>> scene = wh.scene("three_beakers")
-    >>> grips = np.zeros(3, wh.GRIP)
-    >>> grips["height"] = [0.03, 0.06, 0.5]
-    >>> grips["hand_scale"] = 1
-    >>> found = wh.evaluate(scene, "beaker1", grips, ["reason", "closure", "joints"])
-    >>> found["reason"]
-    array([0, 0, 3], dtype=int8)
-    >>> found["closure"].round(3)
-    array([0.241, 0.241,   nan])
-    >>> found["joints"].shape
-    (3, 24, 3)
+    >>> grips = {"height": [0.03, 0.06, 0.5]}
+    >>> found = wh.evaluate("three_beakers", "beaker1", grips, ["reason", "closure", "joints"])
+    >>> found["reason"], found["closure"].round(3), found["joints"].shape
+    (array([0, 0, 3], dtype=int8), array([0.241, 0.241,   nan]), (3, 24, 3))
     """
     of = as_scene(scene)
     number = vessel_number(of, vessel)

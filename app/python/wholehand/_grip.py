@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._errors import Error, warn
+from ._errors import Error, warn, wrong_type
 from ._evaluate import grip_columns
 from ._scene import SceneLike, check_truths, check_types, scene as as_scene, vessel_number
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _JOINTS = 24
+_DEFAULTS = {"azimuth_deg": 0.0, "obliquity_deg": 0.0, "roll_deg": 0.0, "offset_mm": 0.0, "hand_scale": 1.0}
 # Suffixes of the JSON's names, and the unit that each stands for.
 _UNITS = {"rad": "rad", "m3": "m3", "kg": "kg", "m": "m", "Nm": "N m", "N": "N"}
 
@@ -41,7 +42,7 @@ class Grip(Mapping[str, Any]):
     """One grip and everything that ``wholehand grip --json`` reports of it. Made by ``wh.grip``.
 
     A mapping from the names of that JSON (docs/grip.md) to its values: lists of numbers are arrays, SI units, points in the
-    vessel's frame. ``str(grip)`` is the program's table; a notebook shows the drawing. A pickled grip is what was asked for.
+    vessel's frame. ``str(grip)`` is the program's table; a notebook shows the drawing. A pickled grip is evaluated again.
     """
 
     def __init__(self, *asked: Any) -> None:
@@ -58,7 +59,6 @@ class Grip(Mapping[str, Any]):
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[type[Grip], tuple[Any, ...]]:
-        # a pickled grip is what was asked for: it is evaluated again
         return Grip, self._asked
 
     def __getitem__(self, name: str) -> Any:
@@ -181,24 +181,24 @@ def _states(states: list[dict[str, Any]]) -> xr.Dataset:
         raise Error("states: a fill or a tilt was asked for twice")
     data = xr.Dataset(coords={"fill": ("fill", fills, {"units": "1"}), "tilt": ("tilt", tilts, {"units": "rad"})})
     for key, first in states[0].items():
-        values = [one.get(key) for one in states]
+        is_point = key in ("liquid_com_m", "com_m")
+        if key in ("fill", "tilt_rad", "worst_direction") or (isinstance(first, list) and not is_point):
+            continue
         name, unit = _named(key)
-        if key in ("liquid_com_m", "com_m"):
-            table = np.array([[np.nan] * 3 if v is None else v for v in values], dtype=np.float64)
-            data[name] = ("fill", "tilt", "xyz"), table.reshape(len(fills), len(tilts), 3), {"units": unit}
-        elif key not in ("fill", "tilt_rad") and not isinstance(first, list) and key != "worst_direction":
-            numbers = np.array([np.nan if v is None else v for v in values], dtype=np.float64)
-            data[name] = ("fill", "tilt"), numbers.reshape(len(fills), len(tilts)), {"units": unit}
+        missing = [np.nan] * 3 if is_point else np.nan
+        values = np.array([missing if one.get(key) is None else one[key] for one in states], dtype=np.float64)
+        dims = ("fill", "tilt", "xyz") if is_point else ("fill", "tilt")
+        data[name] = dims, values.reshape(len(fills), len(tilts), *values.shape[1:]), {"units": unit}
     return data
 
 
 def _number(value: Any, name: str) -> float:
     if isinstance(value, (str, bytes)):  # which float() would read
-        raise TypeError(f"grip: {name} is {type(value).__name__}; allowed: a number")
+        raise wrong_type("grip", name, value, "a number")
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"grip: {name} is {type(value).__name__}; allowed: a number") from None
+        raise wrong_type("grip", name, value, "a number") from None
 
 
 def _three(values: Sequence[float], name: str) -> list[float]:
@@ -218,42 +218,25 @@ def _list(values: float | Sequence[float] | None, name: str) -> list[float] | No
     except (TypeError, ValueError):
         array = np.empty(0, object)
     if array.dtype.kind not in "fiu" or array.ndim > 1:
-        raise TypeError(f"grip: {name} is {type(values).__name__}; allowed: a number, or a list of numbers")
+        raise wrong_type("grip", name, values, "a number, or a list of numbers")
     return [float(one) for one in np.atleast_1d(array)]
 
 
-def _asked(
-    at: Any,
-    height_mm: float | None,
-    thumb_mm: Sequence[float] | None,
-    index_mm: Sequence[float] | None,
-    further: dict[str, float | None],
-) -> list[float]:
-    """The six numbers of the grip, SI. `further`: azimuth_deg, obliquity_deg, roll_deg, offset_mm, hand_scale."""
-    given = [name for name, value in further.items() if value is not None]
-    if at is not None:
-        _exclude(["height_mm"] * (height_mm is not None) + ["thumb_mm"] * (thumb_mm is not None) + given, "at")
-    elif thumb_mm is not None and index_mm is not None:
-        _exclude(
-            ["--height-mm"] * (height_mm is not None)
-            + ["--" + name.replace("_", "-") for name in given if name not in ("roll_deg", "hand_scale")],
-            "--thumb-mm",
-        )
-    if sum(one is not None for one in (at, height_mm, thumb_mm)) != 1 or (thumb_mm is None) != (index_mm is None):
-        raise Error(
-            "grip: the place of the grip is missing or given twice; give height or height_mm, or thumb_mm and index_mm, or at"
-        )
-    if at is not None:
-        columns = grip_columns([at] if not hasattr(at, "dtype") and not hasattr(at, "keys") else _row(at))
-        if len(columns[0]) != 1:
-            raise Error(f"grip: at has {len(columns[0])} grips; allowed: one")
-        return [float(column[0]) for column in columns]
-    azimuth, obliquity, roll, offset, hand_scale = (
-        _number(default if value is None else value, name) for (name, value), default in zip(further.items(), (0, 0, 0, 0, 1))
-    )
-    if thumb_mm is not None and index_mm is not None:
-        return _core.grip_between(_three(thumb_mm, "thumb_mm"), _three(index_mm, "index_mm"), roll, hand_scale)
-    return _core.grip_at(_number(height_mm, "height_mm"), azimuth, obliquity, roll, offset, hand_scale)
+def _only_grip(at: Any) -> list[float]:
+    """The six numbers of one grip, which is given as ``wh.evaluate`` takes many."""
+    import numpy as np
+
+    if hasattr(at, "keys"):
+        table = at
+    elif hasattr(at, "dtype"):
+        array = np.asarray(at)
+        table = array[np.newaxis] if array.ndim == (0 if array.dtype.names is not None else 1) else array
+    else:
+        table = [at]
+    columns = grip_columns(table)
+    if len(columns[0]) != 1:
+        raise Error(f"grip: at has {len(columns[0])} grips; allowed: one")
+    return [float(column[0]) for column in columns]
 
 
 def _exclude(given: list[str], other: str) -> None:
@@ -261,14 +244,50 @@ def _exclude(given: list[str], other: str) -> None:
         raise Error(f"{given[0]} excludes {other}")
 
 
-def _row(at: Any) -> Any:
-    """A single grip of an array as an array of one."""
-    import numpy as np
+def _check_place(at: Any, index_mm: Any, in_units: dict[str, Any], in_si: dict[str, Any]) -> None:
+    """Raises Error where the place of the grip is missing or given twice."""
+    has_thumb, has_index = "thumb_mm" in in_units, index_mm is not None
+    if at is not None:
+        _exclude([*in_si, *in_units], "at")
+    elif has_thumb:
+        further = [name for name in in_units if has_index and name not in ("thumb_mm", "roll_deg", "hand_scale")]
+        _exclude([*in_si, *("--" + name.replace("_", "-") for name in further)], "--thumb-mm")
+    if (at is not None) + ("height_mm" in in_units) + has_thumb != 1 or has_thumb != has_index:
+        raise Error(
+            "grip: the place of the grip is missing or given twice; give height or height_mm, or thumb_mm and index_mm, or at"
+        )
 
-    if hasattr(at, "data_vars") or hasattr(at, "keys"):
-        return at
-    array = np.asarray(at)
-    return array[np.newaxis] if array.ndim == (0 if array.dtype.names is not None else 1) else array
+
+def _given(numbers: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in numbers.items() if value is not None}
+
+
+def _asked(at: Any, index_mm: Any, in_units: dict[str, Any], in_si: dict[str, Any]) -> list[float]:
+    """The six numbers of the grip, SI. `in_units` are those that are given of height_mm, thumb_mm, azimuth_deg, obliquity_deg,
+    roll_deg, offset_mm and hand_scale, `in_si` those of height, azimuth, obliquity, roll and offset.
+    """
+    if "thumb_mm" in in_units and "roll" in in_si and "roll_deg" not in in_units:
+        in_units["roll_deg"] = math.degrees(_number(in_si.pop("roll"), "roll"))
+    if in_si and at is None and "thumb_mm" not in in_units:
+        at, in_units, in_si = {name: _number(value, name) for name, value in (in_units | in_si).items()}, {}, {}
+    _check_place(at, index_mm, in_units, in_si)
+    if at is not None:
+        return _only_grip(at)
+    azimuth, obliquity, roll, offset, hand_scale = (
+        _number(in_units.get(name, default), name) for name, default in _DEFAULTS.items()
+    )
+    if "thumb_mm" in in_units:
+        return _core.grip_between(_three(in_units["thumb_mm"], "thumb_mm"), _three(index_mm, "index_mm"), roll, hand_scale)
+    return _core.grip_at(_number(in_units["height_mm"], "height_mm"), azimuth, obliquity, roll, offset, hand_scale)
+
+
+def _states_asked(fills: Any, fills_ml: Any, tilts: Any, tilts_deg: Any) -> list[list[float] | None]:
+    """Fills as fractions, fills in mL and tilts in degrees. None: the scene's."""
+    if tilts is not None:
+        if tilts_deg is not None:
+            raise Error("grip: both tilts and tilts_deg are given; allowed: one of the two")
+        tilts_deg = [math.degrees(one) for one in _list(tilts, "tilts") or []]
+    return [_list(values, name) for name, values in (("fills", fills), ("fills_ml", fills_ml), ("tilts_deg", tilts_deg))]
 
 
 def grip(
@@ -315,10 +334,9 @@ def grip(
     at : array, optional
         Instead of all these: one grip as ``wh.evaluate`` takes them, say six numbers in SI units, a row of a structured array
         (``wh.GRIP``), or one grip of ``wh.best``.
-    fills, fills_ml : float or list of float, optional
-        The fills of the states: fractions of the capacity, as ``scene.fills(vessel)`` has them, or mL. Default: the scene's.
-    tilts, tilts_deg : float or list of float, optional
-        The tilts of the states: rad, as ``scene.tilts`` has them, or degrees. Default: the scene's.
+    fills, fills_ml, tilts, tilts_deg : float or list of float, optional
+        The states: fills as fractions of the capacity or in mL, tilts in rad or degrees. Default: ``scene.fills(vessel)`` and
+        ``scene.tilts``.
     on : str
         "auto" (the default: the core, as one grip is too little for a device), "core", "vulkan" or the name of a device.
     precision : {"float", "double"}, optional
@@ -344,29 +362,11 @@ def grip(
     number = vessel_number(of, vessel)
     check_types("grip", on, precision)
     check_truths("grip", quality=quality)
-    further = {
-        "azimuth_deg": azimuth_deg,
-        "obliquity_deg": obliquity_deg,
-        "roll_deg": roll_deg,
-        "offset_mm": offset_mm,
-        "hand_scale": hand_scale,
-    }
+    angles = {"azimuth_deg": azimuth_deg, "obliquity_deg": obliquity_deg, "roll_deg": roll_deg}
+    in_units = {"height_mm": height_mm, "thumb_mm": thumb_mm, **angles, "offset_mm": offset_mm, "hand_scale": hand_scale}
     in_si = {"height": height, "azimuth": azimuth, "obliquity": obliquity, "roll": roll, "offset": offset}
-    if thumb_mm is not None and roll is not None and roll_deg is None:
-        further["roll_deg"], in_si["roll"] = _number(roll, "roll") * (180 / math.pi), None
-    if any(value is not None for value in in_si.values()):
-        if at is not None or thumb_mm is not None:
-            _exclude([name for name, value in in_si.items() if value is not None], "at" if at is not None else "--thumb-mm")
-        named = {"height_mm": height_mm, **further, **in_si}
-        at = {name: _number(value, name) for name, value in named.items() if value is not None}
-        asked = _asked(at, None, None, index_mm, dict.fromkeys(further))
-    else:
-        asked = _asked(at, height_mm, thumb_mm, index_mm, further)
-    if tilts is not None:
-        if tilts_deg is not None:
-            raise Error("grip: both tilts and tilts_deg are given; allowed: one of the two")
-        tilts_deg = [one * (180 / math.pi) for one in _list(tilts, "tilts") or []]
-    states = [_list(values, name) for name, values in (("fills", fills), ("fills_ml", fills_ml), ("tilts_deg", tilts_deg))]
+    asked = _asked(at, index_mm, _given(in_units), _given(in_si))
+    states = _states_asked(fills, fills_ml, tilts, tilts_deg)
     made = Grip(of, number, asked, *states, on, precision, quality)
     warn(of._core.float_notes(precision, "core" if on == "auto" else on))
     return made

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The NetCDF library is no library for two threads: here it is used under one lock.
+"""The NetCDF library is not safe for two threads: here it is used under one lock.
 
-A sweep writes with it while Python's other threads run, and Python's netCDF4 lets them run, too. xarray takes its lock when it reads
-values, but neither when it opens a file nor when it closes one.
+A sweep writes with it while Python's other threads run, and Python's netCDF4 lets them run, too. xarray takes its lock when it
+reads values, but neither when it opens a file nor when it closes one.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ _held = _Held()
 
 
 class LibraryLock:
-    """xarray's lock of the NetCDF library, which a thread that holds it may take again. It has no state of its own, so that Datasets
-    which have it travel to other processes.
+    """xarray's lock of the NetCDF library, which a thread that holds it may take again. It has no state of its own, so that
+    Datasets which have it travel to other processes.
     """
 
     def __enter__(self) -> LibraryLock:
@@ -45,8 +45,8 @@ class LibraryLock:
 
 
 def opened(file: str) -> xr.Dataset:
-    """What ``xarray.open_dataset`` gives but for the checksums, with the library under the lock from opening to ``close()``. What the garbage collector closes, it
-    closes without.
+    """What ``xarray.open_dataset`` gives but for the checksums, with the library under the lock from opening to ``close()``. The
+    garbage collector closes without it.
     """
     import xarray as xr
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from . import _core
-from ._errors import Error
+from ._errors import Error, encodable, wrong_type
 from ._toml import toml_text
 
 if TYPE_CHECKING:
@@ -111,8 +111,8 @@ def scene(source: SceneLike = "three_beakers", *, file: str | os.PathLike[str] |
     ----------
     source : str, path or dict
         The name of a scene that is shipped (``wh.scenes()``), the path of a TOML file, a TOML text (a ``str`` of more than one
-        line), or a dict with the keys of docs/scene.md. NumPy's numbers and arrays are allowed in a dict, and paths (``pathlib.Path``)
-        as texts. A Scene is returned as it is.
+        line), or a dict with the keys of docs/scene.md, which may have NumPy's numbers and arrays, and paths (``pathlib.Path``) as
+        texts. A Scene is returned as it is.
     file : path, optional
         For a text or a dict: the file that it stands for in messages. Meshes are looked for from its folder, else from the current
         one.
@@ -137,26 +137,18 @@ def scene(source: SceneLike = "three_beakers", *, file: str | os.PathLike[str] |
     if isinstance(source, Scene):
         return source
     if isinstance(source, Mapping):
-        return _parse(toml_text(source), "dict" if file is None else os.fspath(file))
+        return _scene_of_dict(toml_text(source), "dict" if file is None else os.fspath(file))
     if isinstance(source, str) and "\n" in source:
-        return Scene(_core.parse_scene(_encodable(source), "text" if file is None else os.fspath(file)))
+        return _scene_of_text(encodable(source), "text" if file is None else os.fspath(file))
     if not isinstance(source, (str, os.PathLike)):
         raise TypeError(f"scene: {type(source).__name__}; allowed: a name, a path, a TOML text, a dict or a Scene")
-    return Scene(_core.open_scene(_encodable(os.fspath(source))))
+    return Scene(_core.open_scene(encodable(os.fspath(source))))
 
 
-def _encodable(text: str) -> str:
+def _scene_of_dict(text: str, name: str) -> Scene:
+    """Adds the line that a message means as a note: nobody has seen the text that was made of a dict."""
     try:
-        text.encode()
-    except UnicodeEncodeError:
-        raise Error(f"{text!r} has a character that is none; allowed: Unicode") from None
-    return text
-
-
-def _parse(text: str, name: str) -> Scene:
-    """With the line that a message means as a note: nobody has seen the text that was made of a dict."""
-    try:
-        return Scene(_core.parse_scene(text, name))
+        return _scene_of_text(text, name)
     except Error as error:
         place = re.match(re.escape(name) + r":(\d+):\d+: ", str(error))
         lines = text.splitlines()
@@ -173,7 +165,7 @@ def new(
     fill_ml: float | None = None,
     **numbers: float,
 ) -> Scene:
-    """A complete scene of one vessel: table, arm, liquid, strength, grips, tilts, deviations. Its ``text`` is commented TOML to edit.
+    """A complete scene of one vessel: table, arm, liquid, strength, grips, tilts, deviations. Its ``text`` is commented TOML.
 
     Parameters
     ----------
@@ -207,11 +199,11 @@ def new(
         if key not in known:
             raise TypeError(f"new: {key} is no keyword; allowed: shape, mesh, fill_ml, {', '.join(known)}")
         if isinstance(value, bool) or not hasattr(value, "__float__"):
-            raise TypeError(f"new: {key} is {type(value).__name__}; allowed: a number")
+            raise wrong_type("new", key, value, "a number")
     given = [(key, float(numbers[key])) for key in known if key in numbers]
-    path = "" if mesh is None else _encodable(os.fspath(mesh))
-    text = _core.new_scene(_encodable(name), _encodable(shape), path, given, None if fill_ml is None else float(fill_ml))
-    return Scene(_core.parse_scene(text, "text"))
+    path = "" if mesh is None else encodable(os.fspath(mesh))
+    text = _core.new_scene(encodable(name), encodable(shape), path, given, None if fill_ml is None else float(fill_ml))
+    return _scene_of_text(text, "text")
 
 
 def scenes() -> list[str]:
@@ -227,7 +219,7 @@ def scenes() -> list[str]:
 def vessel_number(of: Scene, vessel: str | int) -> int:
     """The place of a vessel by its name or number. Raises Error."""
     if isinstance(vessel, str):
-        return of._core.find_vessel(_encodable(vessel))
+        return of._core.find_vessel(encodable(vessel))
     if isinstance(vessel, bool) or not hasattr(vessel, "__index__"):
         raise TypeError(f"vessel: {type(vessel).__name__}; allowed: its name or its number")
     number = int(vessel)
@@ -238,25 +230,25 @@ def vessel_number(of: Scene, vessel: str | int) -> int:
 
 def names_of(names: str | Iterable[str] | None) -> list[str] | None:
     """The names of variables. Raises TypeError."""
-    if names is None or isinstance(names, str):
-        return None if names is None else [_encodable(names)]
-    listed: list[Any] = list(names) if isinstance(names, Iterable) else [names]
+    if names is None:
+        return None
+    listed: list[Any] = list(names) if isinstance(names, Iterable) and not isinstance(names, str) else [names]
     for name in listed:
         if not isinstance(name, str):
             raise TypeError(f"variables: {type(name).__name__} among the names; allowed: names of scene.variables()")
-    return [_encodable(name) for name in listed]
+    return [encodable(name) for name in listed]
 
 
 def check_types(call: str, on: str, precision: str | None = None, **numbers: int | None) -> None:
     """Raises TypeError for options of another kind, and Error for whole numbers that no call takes."""
     for name, text in (("on", on), ("precision", precision)):
         if not isinstance(text, str) and not (name == "precision" and text is None):
-            raise TypeError(f"{call}: {name} is {type(text).__name__}; allowed: a text")
+            raise wrong_type(call, name, text, "a text")
     for name, number in numbers.items():
         if number is None:
             continue
         if isinstance(number, bool) or not hasattr(number, "__index__"):
-            raise TypeError(f"{call}: {name} is {type(number).__name__}; allowed: a whole number")
+            raise wrong_type(call, name, number, "a whole number")
         if abs(int(number)) >= 1 << 31:
             raise Error(f"{call}: {name} is {int(number)}, which is too large")
 
@@ -265,4 +257,4 @@ def check_truths(call: str, **values: bool) -> None:
     """Raises TypeError."""
     for name, value in values.items():
         if not isinstance(value, bool):
-            raise TypeError(f"{call}: {name} is {type(value).__name__}; allowed: True or False")
+            raise wrong_type(call, name, value, "True or False")

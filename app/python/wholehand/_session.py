@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._errors import Error
+from ._errors import Error, wrong_type
 from ._scene import SceneLike, scene as as_scene
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class Session:
         position : array of shape (3,)
             The middle between the two tracked points, m, device frame: +x to the right, +y up, +z towards the person.
         rotation : array of shape (3, 3), optional
-            Of the gripper in the device frame. Default: no rotation, the palm away from the person.
+            The gripper's, in the device frame. Default: no rotation, the palm away from the person.
         gap : float, optional
             Between the two tracked points, m. Default: open.
         buttons : int
@@ -134,7 +134,7 @@ def session(scene: SceneLike = "mixing_board", *, gap: tuple[float, float] | Non
     try:
         range_of_gaps = None if gap is None else [float(one) for one in gap]
     except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"session: gap is {type(gap).__name__}; allowed: two numbers, closed and open, in m") from None
+        raise wrong_type("session", "gap", gap, "two numbers, closed and open, in m") from None
     if range_of_gaps is not None and len(range_of_gaps) != 2:
         raise Error(f"session: gap has {len(range_of_gaps)} numbers; allowed: two, closed and open, in m")
     return Session(_core.Session(as_scene(scene)._core, range_of_gaps))

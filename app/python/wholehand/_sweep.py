@@ -6,13 +6,13 @@ from __future__ import annotations
 import os
 import signal
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
 from ._errors import Error, warn
 from ._netcdf import LibraryLock, loaded, opened
-from ._scene import Scene, SceneLike, check_truths, check_types, names_of, scene as as_scene
+from ._scene import SceneLike, check_truths, check_types, names_of, scene as as_scene
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,22 +22,6 @@ class _Ending(NamedTuple):
     is_whole: bool
     signal: int  # that came meanwhile; 0: none
     notes: list[str]
-
-
-def _run(
-    of: Scene,
-    output: str,
-    on: str,
-    precision: str | None,
-    best: int | None,
-    keep: list[str] | None,
-    threads: int,
-    refine: bool,
-    resume: bool,
-) -> _Ending:
-    """Writes the result file. The lock of the NetCDF library, which xarray uses too, is held meanwhile."""
-    with LibraryLock():
-        return _Ending(*_core.sweep(of._core, output, on, precision, best, keep, threads, refine, resume))
 
 
 def _go_on(ending: _Ending) -> None:
@@ -51,6 +35,20 @@ def _go_on(ending: _Ending) -> None:
             raise KeyboardInterrupt
         raise Error("the sweep was interrupted by a signal", 130)
     warn(ending.notes, above=1)
+
+
+def _in_memory(write: Callable[[str], _Ending]) -> tuple[_Ending, xr.Dataset]:
+    """What a sweep writes, without the file; nothing of one that was interrupted."""
+    import xarray as xr
+
+    with tempfile.TemporaryDirectory(prefix="wholehand-") as folder:
+        file = os.path.join(folder, "sweep.nc")
+        ending = write(file)
+        data = loaded(file) if ending.is_whole else xr.Dataset()
+    data.encoding.pop("source", None)
+    for variable in data.variables.values():
+        variable.encoding.pop("source", None)
+    return ending, data
 
 
 def sweep(
@@ -68,7 +66,7 @@ def sweep(
     """Scores every grip of a scene: ``wholehand sweep`` as an ``xarray.Dataset``.
 
     It has what the program's result file has, to the bit: the axes of the grips as coordinates, units and long names, and the best
-    grips of each vessel. Nothing is printed. Sweeps of several threads wait for each other, as do readers of other NetCDF files.
+    grips of each vessel. Prints nothing. Sweeps of several threads wait for each other, as do readers of other NetCDF files.
 
     Parameters
     ----------
@@ -83,10 +81,9 @@ def sweep(
     keep : str or list of str, optional
         Names of ``scene.variables()``. Default: those of the scene.
     output : path, optional
-        Keep the result file here, with the files that the program writes beside it. The Dataset is then read from it as it is
-        needed; without, it is in memory.
+        Keeps the result file here, beside it those that the program writes, and the Dataset reads it as needed. Default: in memory.
     threads : int
-        Of the core; 0: all.
+        Threads of the core; 0: all.
     refine : bool
         Look for better grips near the best ones.
     resume : bool
@@ -106,28 +103,23 @@ def sweep(
 
     >>> import wholehand as wh
     >>> data = wh.sweep("small", on="core")
-    >>> data.score.dims
-    ('vessel', 'azimuth', 'obliquity', 'roll', 'offset', 'hand_scale', 'height')
     >>> data.height.attrs["units"], float(data.score.max().round(4))
     ('m', 0.9305)
     """
-    import xarray as xr
-
     of, kept = as_scene(scene), names_of(keep)
     check_types("sweep", on, precision, best=best, threads=threads)
     check_truths("sweep", refine=refine, resume=resume)
+
+    def write(file: str) -> _Ending:
+        with LibraryLock():
+            return _Ending(*_core.sweep(of._core, file, on, precision, best, kept, threads, refine, resume))
+
     if output is not None:
         file = os.fspath(output)
-        _go_on(_run(of, file, on, precision, best, kept, threads, refine, resume))
+        _go_on(write(file))
         return opened(file)
     if resume:
         raise Error("resume: there is no file to go on with; give output, too")
-    with tempfile.TemporaryDirectory(prefix="wholehand-") as folder:
-        file = os.path.join(folder, "sweep.nc")
-        ending = _run(of, file, on, precision, best, kept, threads, refine, False)
-        data = loaded(file) if ending.is_whole else xr.Dataset()
+    ending, data = _in_memory(write)
     _go_on(ending)
-    data.encoding.pop("source", None)  # is gone
-    for name in data.variables:
-        data[name].encoding.pop("source", None)
     return data

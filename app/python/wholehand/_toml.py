@@ -9,17 +9,13 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from ._errors import Error
+from ._errors import Error, encodable
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def _text(value: str) -> str:
-    try:
-        value.encode()
-    except UnicodeEncodeError:
-        raise Error(f"dict: the text {value!r} has a character that is none; allowed: Unicode") from None
-    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return json.dumps(encodable(value, "dict: the text "), ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _key(key: object, place: str) -> str:
@@ -46,10 +42,11 @@ def _value(value: Any, place: str) -> str:
     if isinstance(value, str):
         return _text(value)
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_key(k, place)} = {_value(v, f'{place}.{k}')}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(_lines(value, place)) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(one, place) for one in value) + "]"
-    raise Error(f"dict: {place} is {type(value).__name__}; allowed: a number, a text, a path, a truth value, a list or a dict of them")
+    allowed = "a number, a text, a path, a truth value, a list or a dict of them"
+    raise Error(f"dict: {place} is {type(value).__name__}; allowed: {allowed}")
 
 
 def _is_tables(value: Any) -> bool:

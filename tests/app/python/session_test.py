@@ -13,70 +13,72 @@ from harness import complaint, run
 from installed import SEVERAL, InFolder
 
 OPEN = 0.12
+# what a step has, and the recording's variable of it
+RECORDED = [
+    ("arm_force", "wanted_arm_force"),
+    ("grip_force", "wanted_gripper_force"),
+    ("tilt", "tilt"),
+    ("weight", "weight"),
+    ("torque", "torque"),
+    ("normal_force", "normal_force"),
+    ("feedback_force", "feedback_force"),
+    ("hold_force", "hold_force"),
+    ("user_force", "grip_force"),
+    ("closure", "closure"),
+    ("gap", "gap"),
+    ("middle", "hand_midpoint"),
+    ("hand_rotation", "hand_rotation"),
+    ("tips", "tips"),
+    ("vessel_place", "vessel_place"),
+    ("vessel_rotation", "vessel_rotation"),
+    ("volume", "liquid_volume"),
+    ("arrived", "arrived_volume"),
+    ("spilt", "spilt_volume"),
+    ("flow", "flow"),
+    ("grasp_height", "grasp_height"),
+    ("touch_mask", "touch_mask"),
+    ("used_mask", "used_mask"),
+    ("grasps", "grasps"),
+    ("lost", "grips_lost"),
+    ("destinations", "destinations"),
+    ("is_task_done", "task_done"),
+]
 
 
 class Live(InFolder):
+    def replay(self, session, recorded, vessels, states):
+        """Steps through a recording's measurements, up to where the loop lets go, which no session does."""
+        for k, tick in enumerate(recorded["tick"].astype(int)):
+            state = states[recorded["state"][k]]
+            if state == "released":
+                return
+            measured = [recorded["device_" + name][k] for name in ("position", "rotation", "gap")]
+            step = session.step(*measured, int(recorded["device_buttons"][k]), tick=int(tick))
+            self.assertEqual(step.tick, tick)
+            # a meaning of a flag has no spaces
+            self.assertEqual(step.state, state.replace("_", " "))
+            index = recorded["vessel_index"][k]
+            self.assertEqual(step.vessel, None if np.isnan(index) or index < 0 else vessels[int(index)])
+            yield step
+
     def test_it_is_what_the_program_recorded(self):
         run("live", "mixing_board", "--no-clock", "--rate", 500, "--record", "own.nc")
         text = wh.scene("mixing_board").text
-        # the recorded rate is the program's option, which a scene says in [live]
+        # the recorded rate is the program's option, which a scene has in [live]
         self.assertNotIn("[live]", text)
         scene = wh.scene(text + "\n[live]\nrate_Hz = 500\n")
         with xr.open_dataset("own.nc", decode_times=False) as ticks, wh.session(scene) as session:
             recorded = {name: ticks[name].values for name in ticks.variables}
             states = ticks["state"].attrs["flag_meanings"].split()
             held, reported, efforts = 0, [], []
-            pairs = [
-                ("arm_force", "wanted_arm_force"),
-                ("grip_force", "wanted_gripper_force"),
-                ("tilt", "tilt"),
-                ("weight", "weight"),
-                ("torque", "torque"),
-                ("normal_force", "normal_force"),
-                ("feedback_force", "feedback_force"),
-                ("hold_force", "hold_force"),
-                ("user_force", "grip_force"),
-                ("closure", "closure"),
-                ("gap", "gap"),
-                ("middle", "hand_midpoint"),
-                ("hand_rotation", "hand_rotation"),
-                ("tips", "tips"),
-                ("vessel_place", "vessel_place"),
-                ("vessel_rotation", "vessel_rotation"),
-                ("volume", "liquid_volume"),
-                ("arrived", "arrived_volume"),
-                ("spilt", "spilt_volume"),
-                ("flow", "flow"),
-                ("grasp_height", "grasp_height"),
-                ("touch_mask", "touch_mask"),
-                ("used_mask", "used_mask"),
-                ("grasps", "grasps"),
-                ("lost", "grips_lost"),
-                ("destinations", "destinations"),
-                ("is_task_done", "task_done"),
-            ]
-            for k, tick in enumerate(recorded["tick"].astype(int)):
-                if states[recorded["state"][k]] == "released":
-                    break  # the loop has let go, which is none of the session's
-                step = session.step(
-                    recorded["device_position"][k],
-                    recorded["device_rotation"][k],
-                    recorded["device_gap"][k],
-                    int(recorded["device_buttons"][k]),
-                    tick=int(tick),
-                )
-                self.assertEqual(step.tick, tick)
-                # a meaning of a flag has no spaces
-                self.assertEqual(step.state, states[recorded["state"][k]].replace("_", " "))
-                index = recorded["vessel_index"][k]
-                self.assertEqual(step.vessel, None if np.isnan(index) or index < 0 else scene.vessels[int(index)])
-                reported.append([getattr(step, own) for own, _ in pairs])
+            for step in self.replay(session, recorded, scene.vessels, states):
+                reported.append([getattr(step, own) for own, _ in RECORDED])
                 held += step.is_held
-                if tick % 100 == 0:  # an effort is solved when it is asked for
+                if step.tick % 100 == 0:  # an effort is solved when it is asked for
                     self.assertEqual(np.isnan(step.effort), not step.is_held)
                     efforts += [step.effort] if step.is_held else []
             self.assertGreater(len(reported), 2000)
-            for (own, other), values in zip(pairs, zip(*reported)):
+            for (own, other), values in zip(RECORDED, zip(*reported)):
                 np.testing.assert_array_equal(np.array(values, float), recorded[other][: len(reported)].astype(float), own)
             self.assertGreater(held, 500)
             self.assertEqual(step.grasps, 4)

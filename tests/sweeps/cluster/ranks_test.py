@@ -229,6 +229,10 @@ class Job(unittest.TestCase):
     def run_nodes(self, nodes, *arguments, folders=()):
         return self.end(self.start_nodes(nodes, *arguments, folders=folders))
 
+    def partial_files(self, output=""):
+        """What a job that did not end has left, of one result or of all."""
+        return [file for file in os.listdir(self.folder) if output + ".partial" in file]
+
     def merge(self, result, *more):
         return self.end(self.start([PROGRAM, "merge", result, *more]))
 
@@ -286,8 +290,7 @@ class Ranks(Job):
                     with open(self.path(file), "rb") as own, open(self.path(name + file[len(f"{name}{ranks}"):]), "rb") as other:
                         self.assertEqual(own.read(), other.read(), file)
                 self.assertEqual(len(maps), 0 if name == "bare" else 2)
-                leftover = [file for file in os.listdir(self.folder) if ".partial" in file]
-                self.assertEqual(leftover, [])
+                self.assertEqual(self.partial_files(), [])
 
     def test_lists_that_take_passes(self):
         path = self.write("alike.toml", ALIKE)
@@ -421,85 +424,100 @@ class Ranks(Job):
 class Shards(Job):
     """Nodes that share no file system."""
 
+    def refused_merge(self, code, result, *more):
+        """The line with which a merge refuses."""
+        found, out, errors = self.merge(result, *more)
+        self.assertEqual((found, out, len(errors.strip().split("\n"))), (code, "", 1), errors)
+        return errors
+
+    def sweep_to_shards(self, path, name, output):
+        """The shards of nodes that leave no result file."""
+        code, out, errors = self.run_nodes({"a": 2, "b": 1, "c": 1}, path, "-o", output)
+        self.assertEqual((code, errors), (0, ""))
+        self.assertIn(f"`wholehand merge {output}` makes one file", out)
+        self.assertFalse(os.path.exists(self.path(output)))
+        self.assertEqual(rows(self.path(name + ".best.csv")), rows(self.path(name + "s.best.csv")))
+        shards = [file for file in os.listdir(self.folder) if file.startswith(output) and file.endswith(".shard")]
+        self.assertTrue(shards, out)
+        return shards
+
+    def refuse_missing_shards(self, output, shards, folder):
+        """Moves the shards to a folder that the merge does not know."""
+        os.mkdir(self.path(folder))
+        for file in shards:
+            os.rename(self.path(file), self.path(f"{folder}/{file}"))
+        errors = self.refused_merge(2, output)
+        self.assertTrue(all(file in errors for file in shards), errors)
+
+    def refuse_foreign_shards(self, output, shards, folder):
+        """Neither a shard of another sweep nor a folder of its name is taken for a shard."""
+        os.mkdir(self.path(folder))
+        for file in shards:
+            self.write(f"{folder}/{file}", "wholehand shard of sweep 0123456789abcdef0123456789abcdef\n")
+        errors = self.refused_merge(2, output, "--from", folder)
+        self.assertTrue(all(f"{folder}/{file} is a shard of another sweep" in errors for file in shards), errors)
+        os.remove(self.path(f"{folder}/{shards[0]}"))
+        os.mkdir(self.path(f"{folder}/{shards[0]}"))
+        self.assertIn(f"{folder}/{shards[0]} is no file", self.refused_merge(2, output, "--from", folder))
+
+    def refuse_damaged_mark(self, output, folder):
+        """A mark that was damaged on its way is to be copied again."""
+        mark = self.path(output + ".partial.mark")
+        with open(mark, "rb") as file:
+            whole = file.read()
+        with open(mark, "wb") as file:
+            file.write(whole[:-1] + b"?")
+        errors = self.refused_merge(3, output, "--from", folder)
+        self.assertRegex(errors, r"^wholehand: \S+\.mark: is damaged: .+; copy it again from where the sweep ran\n$")
+        with open(mark, "wb") as file:
+            file.write(whole)
+
+    def refuse_to_overwrite(self, output, folder):
+        self.write(output, "notes of somebody")
+        errors = self.refused_merge(2, output, "--from", folder)
+        self.assertEqual(errors, f"wholehand: {output} is there and is no result file; move it away, and merge again\n")
+        with open(self.path(output), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "notes of somebody")
+        os.remove(self.path(output))
+
+    def merge_on_full_disk(self, output, folder):
+        limited = ["sh", "-c", 'ulimit -f 200; exec "$@"', "sh", PROGRAM, "merge", output, "--from", folder]
+        code, out, errors = self.end(self.start(limited))
+        self.assertEqual((code, out, len(errors.strip().split("\n"))), (3, "", 1), errors)
+        self.assertIn("make room, and merge again", errors)
+
+    def merge_after_kills(self, output, folder):
+        """Merges once more after a merge was killed. Removes what a kill that came too late left of the mark."""
+        for _ in range(4):
+            killed = self.start([PROGRAM, "merge", output, "--from", folder])
+            while killed.poll() is None and not os.path.exists(self.path(output + ".partial.lock")):
+                pass
+            killed.kill()
+            if self.end(killed)[0] == 0 or os.path.exists(self.path(output)):
+                break
+        if os.path.exists(self.path(output)):
+            for file in self.partial_files(output):
+                os.remove(self.path(file))
+        else:
+            code, _, errors = self.merge(output, "--from", folder)
+            self.assertEqual((code, errors), (0, ""))
+
     def test_shards_become_the_file_of_one_machine(self):
         # enough pieces that no node comes too late for its first
         for name, scene in {"grid": SMALL.replace("count = 20", "count = 160"), "points": POINTS.replace("3000", "12000")}.items():
-            path = self.write(name + ".toml", scene)
+            path, output = self.write(name + ".toml", scene), name + "s.nc"
             self.alone(path, name + ".nc")
-            output = name + "s.nc"
-            code, out, errors = self.run_nodes({"a": 2, "b": 1, "c": 1}, path, "-o", output)
-            self.assertEqual((code, errors), (0, ""))
-            self.assertIn(f"`wholehand merge {output}` makes one file", out)
-            self.assertFalse(os.path.exists(self.path(output)))
-            self.assertEqual(rows(self.path(name + ".best.csv")), rows(self.path(name + "s.best.csv")))
-            shards = [file for file in os.listdir(self.folder) if file.startswith(output) and file.endswith(".shard")]
-            self.assertTrue(shards, out)
-            # collected from elsewhere; what is missing is named
-            os.mkdir(self.path(name))
-            for file in shards:
-                os.rename(self.path(file), self.path(f"{name}/{file}"))
-            code, out, errors = self.merge(output)
-            self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
-            self.assertTrue(all(file in errors for file in shards), errors)
-            # a shard of another sweep is not taken for it, and nothing else is overwritten
-            os.mkdir(self.path(name + "other"))
-            for file in shards:
-                self.write(f"{name}other/{file}", "wholehand shard of sweep 0123456789abcdef0123456789abcdef\n")
-            code, out, errors = self.merge(output, "--from", name + "other")
-            self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
-            self.assertTrue(all(f"{name}other/{file} is a shard of another sweep" in errors for file in shards), errors)
-            # nor is a folder of its name, nor anything else
-            os.remove(self.path(f"{name}other/{shards[0]}"))
-            os.mkdir(self.path(f"{name}other/{shards[0]}"))
-            code, out, errors = self.merge(output, "--from", name + "other")
-            self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
-            self.assertIn(f"{name}other/{shards[0]} is no file", errors)
-            # a mark that was damaged on its way is to be copied again
-            mark = self.path(output + ".partial.mark")
-            with open(mark, "rb") as file:
-                whole = file.read()
-            with open(mark, "wb") as file:
-                file.write(whole[:-1] + b"?")
-            code, out, errors = self.merge(output, "--from", name)
-            self.assertEqual((code, out), (3, ""), errors)
-            self.assertRegex(errors, r"^wholehand: \S+\.mark: is damaged: .+; copy it again from where the sweep ran\n$")
-            with open(mark, "wb") as file:
-                file.write(whole)
-            self.write(output, "notes of somebody")
-            code, out, errors = self.merge(output, "--from", name)
-            self.assertEqual((code, out), (2, ""), errors)
-            self.assertEqual(errors, f"wholehand: {output} is there and is no result file; move it away, and merge again\n")
-            with open(self.path(output), encoding="utf-8") as file:
-                self.assertEqual(file.read(), "notes of somebody")
-            os.remove(self.path(output))
-            # where the disk is full, another try begins again
-            limited = ["sh", "-c", 'ulimit -f 200; exec "$@"', "sh", PROGRAM, "merge", output, "--from", name]
-            code, out, errors = self.end(self.start(limited))
-            self.assertEqual((code, out, len(errors.strip().split("\n"))), (3, "", 1), errors)
-            self.assertIn("make room, and merge again", errors)
-            # so does one after a merge that was killed
-            for _ in range(4):
-                killed = self.start([PROGRAM, "merge", output, "--from", name])
-                while killed.poll() is None and not os.path.exists(self.path(output + ".partial.lock")):
-                    pass
-                killed.kill()
-                if self.end(killed)[0] == 0 or os.path.exists(self.path(output)):
-                    break
-            if os.path.exists(self.path(output)):  # the kill came too late, and perhaps before the mark was removed
-                for file in os.listdir(self.folder):
-                    if file.startswith(output + ".partial"):
-                        os.remove(self.path(file))
-            else:
-                code, out, errors = self.merge(output, "--from", name)
-                self.assertEqual((code, errors), (0, ""))
+            shards = self.sweep_to_shards(path, name, output)
+            self.refuse_missing_shards(output, shards, folder=name)
+            self.refuse_foreign_shards(output, shards, folder=name + "other")
+            self.refuse_damaged_mark(output, folder=name)
+            self.refuse_to_overwrite(output, folder=name)
+            self.merge_on_full_disk(output, folder=name)
+            self.merge_after_kills(output, folder=name)
             self.assert_same(name + ".nc", output)
-            self.assertEqual([file for file in os.listdir(self.folder) if ".partial" in file], [])
-            code, out, errors = self.merge(output)
-            self.assertEqual(code, 2, errors)
-            self.assertIn("nothing is left to merge", errors)
-            code, out, errors = self.merge(path)
-            self.assertEqual(code, 2, errors)
-            self.assertIn(".partial is not there; name the result", errors)
+            self.assertEqual(self.partial_files(), [])
+            self.assertIn("nothing is left to merge", self.refused_merge(2, output))
+            self.assertIn(".partial is not there; name the result", self.refused_merge(2, path))
 
     def test_shards_without_grips_do_not_stay(self):
         path = self.write("tiny.toml", SMALL.replace("count = 20", "count = 2"))  # less than a piece of each vessel
