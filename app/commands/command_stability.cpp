@@ -89,9 +89,8 @@ void add_stability_command(CLI::App& app, Action& action) {
       ->type_name("DIR")
       ->check(not_empty());
   command
-      ->add_option(
-          "--on", report_arguments->on,
-          "Device that evaluates the extreme scenes beside the core: vulkan (the best; the default), a name, or core for none")
+      ->add_option("--on", report_arguments->on,
+                   "Also runs the extreme scenes: vulkan (the best device; the default), a name, or core")
       ->type_name("DEVICE")
       ->check(offered("core vulkan"))
       ->check(not_empty());
