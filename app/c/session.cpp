@@ -8,16 +8,13 @@
 #include "device/session/hand_view.h"
 #include "device/session/reach.h"
 #include "device/session/session.h"
-#include "device/session/vessel_tracker.h"
 #include "sweeps/grips/hand_nodes.h"
 
 using namespace wholehand;
 
 struct wh_session {
-  wh_session(const Scene& scene, std::array<double, 2> gap)
-      : session(scene, gap), tracker(session.live().scene), yielding(session.live().hand) {}
+  wh_session(const Scene& scene, std::array<double, 2> gap) : session(scene, gap), yielding(session.live().hand) {}
   Session session;
-  VesselTracker tracker;
   core_f64::Hand yielding;
   Tick tick;
   std::int64_t last = -1;  // number of the last tick; -1: none yet
@@ -129,7 +126,6 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
                 static_cast<long long>(session->last));
   session->last = in.tick;
   session->session.step(state_of(in), in.tick, session->tick);
-  session->tracker.follow(session->tick);
   give_back(output_of(session->tick), output);
   return WH_OK;
 }
@@ -143,7 +139,7 @@ wh_status wh_session_vessel_at(wh_session* session, size_t index, wh_session_ves
   if (index >= vessels)
     return fail(WH_ARGUMENT, "wh_session_vessel_at: the scene has %zu vessels, and none of number %zu", vessels, index);
   wh_session_vessel own{};
-  const VesselPose& pose = session->tracker.poses()[index];
+  const VesselPose& pose = session->session.poses()[index];
   copy(pose.place, own.place);
   copy(pose.rotation, own.rotation);
   const bool has_stepped = session->last >= 0;
@@ -161,7 +157,7 @@ wh_status wh_session_hand(wh_session* session, wh_hand* hand) {
   if (!entered) return fail(WH_BUSY, "wh_session_hand: another thread is in this session");
   if (session->last < 0) return fail(WH_ARGUMENT, "wh_session_hand: there is no hand before the first step");
   const LiveScene& live = session->session.live();
-  const HandView view = hand_posture(live, session->tick, session->tracker.poses(), session->yielding);
+  const HandView view = hand_posture(live, session->tick, session->session.poses(), session->yielding);
   const HandNodes nodes = hand_nodes(live.scene.hand, live.hand, view.wrist, view.rotation, view.proxies);
   wh_hand own{};
   for (std::size_t j = 0; j < WH_JOINTS; ++j) {

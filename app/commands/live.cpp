@@ -171,10 +171,12 @@ class LiveRun {
     report_address();
     std::optional<DisplayLoop> display;
     if (!displays_.empty()) display.emplace(session_->live(), displays_, advice_source());
+    VesselTracker vessels(scene_);  // the session is the haptic thread's
     const auto look = [&](std::span<const Tick> ticks) {
       board.look(ticks);
-      if (advice_) advice_->look(ticks);
-      if (display) display->look(ticks);
+      for (const Tick& tick : ticks) vessels.follow(tick);
+      if (advice_) advice_->look(ticks.back(), vessels.poses());
+      if (display) display->look(ticks, vessels.poses());
     };
     Recorder recorder(*ring_, std::move(writer), look, display || advice_ ? SHOWN_LOOK : DRAIN_INTERVAL);
     loop_thread(interrupt, recorder, board);
@@ -344,7 +346,7 @@ class LiveRun {
   TickSink sink() {
     if (!options_.no_clock) return [this](const Tick& tick) { return ring_->push(tick); };
     return [this](const Tick& tick) {
-      if (advice_) advice_->step(tick);
+      if (advice_) advice_->step(tick, session_->poses());
       while (!ring_->push(tick)) std::this_thread::sleep_for(std::chrono::microseconds(100));
       return true;
     };

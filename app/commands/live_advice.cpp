@@ -56,13 +56,13 @@ void LiveAdvice::open(const Scene& scene, const Options& options) {
 
 ShownGripSource* LiveAdvice::shown() { return loop_ ? &loop_->shown() : stepped_.get(); }
 
-void LiveAdvice::look(std::span<const Tick> ticks) {
-  if (loop_) loop_->look(ticks);
+void LiveAdvice::look(const Tick& tick, const VesselPoses& poses) {
+  if (loop_) loop_->look(tick, poses);
 }
 
-void LiveAdvice::step(const Tick& tick) {
+void LiveAdvice::step(const Tick& tick, const VesselPoses& poses) {
   if (!stepped_) return;
-  stepped_->look(tick);
+  stepped_->look(tick, poses);
   narrate_newest();
 }
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -42,9 +41,9 @@ class LiveAdvice {
   LiveAdvice(const Scene& scene, const Options& options);
 
   ShownGripSource* shown();
-  // Takes ticks in order: with a clock from the recorder's thread, without one each tick in the loop.
-  void look(std::span<const Tick> ticks);
-  void step(const Tick& tick);
+  // Takes ticks in order, with the vessels at `poses`: with a clock the newest from the recorder's thread, without one each tick in the loop.
+  void look(const Tick& tick, const VesselPoses& poses);
+  void step(const Tick& tick, const VesselPoses& poses);
 
   // From any thread.
   std::shared_ptr<const Advice> newest() const;

@@ -53,8 +53,8 @@ class DisplayLoop {
   DisplayLoop(const DisplayLoop&) = delete;
   DisplayLoop& operator=(const DisplayLoop&) = delete;
 
-  // Takes all ticks in order, from one thread. Only copies; never waits.
-  void look(std::span<const Tick> ticks);
+  // Takes all ticks in order, from one thread, with the vessels at `poses` in the last one. Only copies; never waits.
+  void look(std::span<const Tick> ticks, const VesselPoses& poses);
   // Shows the last tick, and ends. Call it once; nothing is shown afterwards.
   void stop();
 
@@ -76,7 +76,7 @@ class DisplayLoop {
   bool is_due_ = false;  // and is to be
   Clock::time_point due_;
   Tick newest_;
-  VesselTracker tracker_;
+  VesselPoses poses_;
   std::int64_t ticks_ = 0;
   ViewFrame::Timing timing_;
 

@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -46,8 +45,8 @@ class AdviceLoop {
   AdviceLoop(const AdviceLoop&) = delete;
   AdviceLoop& operator=(const AdviceLoop&) = delete;
 
-  // Takes all ticks in order, from one thread. Only copies; never waits.
-  void look(std::span<const Tick> ticks);
+  // Takes the newest tick, from one thread, with the vessels at `poses`. Only copies; never waits.
+  void look(const Tick& tick, const VesselPoses& poses);
   // The newest advice; from any thread. Nothing before the first, while an update exceeds the patience, and after the advice has ended. The same
   // object until the next.
   std::shared_ptr<const Advice> newest() const;

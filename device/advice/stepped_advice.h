@@ -25,8 +25,8 @@ class SteppedAdvice final : public ShownGripSource {
   // With a custom adviser.
   SteppedAdvice(const Scene& scene, const AdviceLoop::AdviserOpener& open, const Options& options);
 
-  // Takes all ticks in order on the loop's thread, which waits. A device that fails ends the advice.
-  void look(const Tick& tick) noexcept;
+  // Takes all ticks in order on the loop's thread, which waits, with the vessels at `poses`. A device that fails ends the advice.
+  void look(const Tick& tick, const VesselPoses& poses) noexcept;
   // For the same thread.
   bool take(std::int64_t tick, ShownGrip& grip) noexcept override;
 
@@ -36,13 +36,12 @@ class SteppedAdvice final : public ShownGripSource {
   AdviceTally tally() const;
 
  private:
-  void ask(const Tick& tick);
+  void ask(const Tick& tick, const VesselPoses& poses);
 
   const LiveScene live_;
   Options options_;
   std::unique_ptr<Adviser> adviser_;  // none after a failure
-  VesselTracker tracker_;
-  std::int64_t period_;  // ticks
+  std::int64_t period_;               // ticks
   std::int64_t due_ = 0;
   std::shared_ptr<const Advice> coming_;  // shown at the next moment
   ShownGrip coming_grip_, grip_;

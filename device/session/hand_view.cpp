@@ -208,7 +208,7 @@ HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses
 HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses) {
   core_f64::Hand yielding = live.hand;
   HandView view = hand_posture(live, tick, poses, yielding);
-  if (tick.vessel >= 0) view.hold = hand_hold(live, tick, poses[static_cast<std::size_t>(tick.vessel)], view.posed);
+  view.hold = hand_hold(live, tick, view.posed);
   return view;
 }
 

@@ -35,6 +35,7 @@ Session::Session(const Scene& scene, std::array<double, 2> device_gap)
     : live_(std::make_unique<const LiveScene>(scene)),
       workspace_(scene, device_gap, gap_of(live_->hand)),
       pouring_(volumes_of(*live_), scene.task, scene.gravity, scene.live.rate),
+      vessels_(live_->scene),
       period_(1 / scene.live.rate),
       radii_{live_->hand.scale * live_->hand.radius[0][3], live_->hand.scale * live_->hand.radius[1][4]} {
   for (const LiveVessel& vessel : live_->vessels) obstacles_.standing[obstacles_.count++] = {&vessel.vessel, vessel.home, false};
@@ -84,6 +85,7 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
   tick.grasps = grasps_;
   tick.lost = lost_;
   tick.destinations = destinations_;
+  vessels_.follow(tick);
   tips_before_ = tips_;
   number_ = number;
 }

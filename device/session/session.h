@@ -14,6 +14,7 @@
 #include "device/session/live_scene.h"
 #include "device/session/pouring.h"
 #include "device/session/proxy.h"
+#include "device/session/vessel_tracker.h"
 #include "device/session/workspace.h"
 
 namespace wholehand {
@@ -27,6 +28,8 @@ class Session {
   // allocates nor throws. The state must be finite.
   void step(const GripperState& state, std::int64_t number, Tick& tick) noexcept;
 
+  // Where every vessel is since the last step, world frame.
+  const VesselPoses& poses() const noexcept { return vessels_.poses(); }
   const LiveScene& live() const noexcept { return *live_; }
   const Workspace& workspace() const noexcept { return workspace_; }
 
@@ -83,6 +86,7 @@ class Session {
   Workspace workspace_;
   Pouring pouring_;
   Obstacles obstacles_;
+  VesselTracker vessels_;
   double period_;                // s
   std::array<double, 2> radii_;  // of thumb and index tip, m
   std::int64_t number_ = -1;     // of the previous tick; -1: none

@@ -24,9 +24,7 @@ struct Advised {
     script.height = 0.09;
     const std::vector<Tick> record = play_session(scene, script);
     tick = record[last_free_tick(record)];
-    VesselTracker tracker(scene);
-    tracker.follow(tick);
-    poses = tracker.poses();
+    poses = VesselTracker(scene).poses();
     poses[0].place = {0.3, 0.02, -0.1};  // off the origin, and turned: a forgotten pose shows
     poses[0].rotation = turned('y', 0.4);
     Adviser adviser(scene, "core", 1);
