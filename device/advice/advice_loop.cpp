@@ -218,8 +218,6 @@ std::vector<std::string> AdviceLoop::take_warnings() {
 
 ShownGripSource& AdviceLoop::shown() { return shared_->shown; }
 
-std::string AdviceLoop::place() const { return tally().place; }
-
 AdviceTally AdviceLoop::tally() const {
   const std::lock_guard lock(shared_->mutex);
   return shared_->tally;

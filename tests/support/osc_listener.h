@@ -96,7 +96,7 @@ class PlayedSession {
 
  private:
   LiveScript script_;
-  ViewFrame::Timing timing_;
+  DisplayTiming timing_;
   std::int64_t next_ = 0;
 };
 

@@ -78,7 +78,7 @@ TEST(OscStream, SendsTheAdvice) {
   OscListener listener;
   OscStream stream(listener.target(), one.live);
   const HandView hand = hand_view(one.live, one.tick, one.poses);
-  const ViewFrame::Timing timing;
+  const DisplayTiming timing;
   const auto sent = [&](const Advice* advice) {
     stream.show({one.tick, one.poses, hand, timing, advice});
     std::map<std::string, OscMessage> found;

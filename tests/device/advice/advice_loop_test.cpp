@@ -40,7 +40,7 @@ TEST(AdviceLoop, FollowsTheNewestTick) {
   const double no_end = 1e9;  // s: however slow the machine is, nothing is late
   AdviceLoop loop(
       scene, [](const Scene& own) { return std::make_unique<Adviser>(own, "core", 1); }, false, no_end);
-  EXPECT_EQ(loop.place(), "core, 1 thread");
+  EXPECT_EQ(loop.tally().place, "core, 1 thread");
   EXPECT_FALSE(loop.newest());
   const std::size_t at = last_free_tick(record);
   look(loop, scene, record, at);

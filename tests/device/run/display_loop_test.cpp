@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a session shows at display rate: the newest tick, each once, the last one always.
 // sanitizers: thread
-#include "app/viewer/display_loop.h"
+#include "device/run/display_loop.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class Keeper final : public Display {
   std::atomic<int> count{0};
   std::vector<std::int64_t> numbers;
   std::vector<SessionState> states;
-  std::vector<ViewFrame::Timing> timings;
+  std::vector<DisplayTiming> timings;
   std::vector<Triple> places, tips;
   std::vector<std::optional<int>> advised;  // vessel; nothing: nobody was asked
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/viewer/display_loop.h"
+#include "device/run/display_loop.h"
 
 #include <algorithm>
 
@@ -74,7 +74,7 @@ void DisplayLoop::run() {
 void DisplayLoop::show_newest() {
   Tick tick;
   VesselPoses poses;
-  ViewFrame::Timing timing;
+  DisplayTiming timing;
   std::int64_t ticks = 0;
   {
     const std::lock_guard lock(mutex_);
