@@ -36,8 +36,7 @@ class HeldHand {
 
  private:
   const LiveScene& live_;
-  core_f64::Vec3 place_{};
-  core_f64::Mat3 turn_{1};
+  Stance stance_;
   core_f64::Vec3 pinch_{1, 0, 0};
   double gap_ = 0, scale_ = 1;
   std::vector<core_f64::ContactPoint> contacts_, tips_;
