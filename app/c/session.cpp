@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -28,28 +29,12 @@ void copy(const std::array<double, N>& from, double* to) noexcept {
   for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
 }
 
-constexpr double ROTATION_TOLERANCE = 1e-3;  // engines rotate in float; anything further off was not meant as a rotation
-
-bool is_finite(const wh_measurement& in) noexcept {
-  const auto all = [](const double* numbers, int count) {
-    for (int k = 0; k < count; ++k)
-      if (!std::isfinite(numbers[k])) return false;
-    return true;
-  };
-  return all(&in.gap, 1) && all(in.position, 3) && all(in.rotation, 9);
-}
-
-bool has_rotation(const wh_measurement& in) noexcept {
-  for (const double x : in.rotation)
-    if (x != 0) return true;
-  return false;
-}
-
 GripperState state_of(const wh_measurement& in) noexcept {
   GripperState state;
-  for (int k = 0; k < 3; ++k) state.position[k] = in.position[k];
-  if (has_rotation(in))
-    for (int k = 0; k < 9; ++k) state.rotation[k] = in.rotation[k];
+  std::copy_n(in.position, 3, state.position.begin());
+  // all zeros mean no rotation
+  if (std::any_of(in.rotation, in.rotation + 9, [](double x) { return x != 0; }))
+    std::copy_n(in.rotation, 9, state.rotation.begin());
   state.gap = in.gap;
   state.buttons = in.buttons;
   return state;
@@ -113,10 +98,11 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
   if (const wh_status status = check_answer(output, "wh_session_step: the output"); status != WH_OK) return status;
   const Entered entered(session->is_in_use);
   if (!entered) return fail(WH_BUSY, "wh_session_step: another thread is in this session");
-  if (!is_finite(in)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
-  if (!is_in_reach(state_of(in)))
+  const GripperState state = state_of(in);
+  if (!is_finite(state)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
+  if (!is_in_reach(state))
     return fail(WH_INPUT, "wh_session_step: the measurement is out of reach; allowed: a position up to 25 m, a gap up to 10 m");
-  if (has_rotation(in) && !is_rotation(state_of(in).rotation, ROTATION_TOLERANCE))
+  if (!is_rotation(state.rotation, ROTATION_TOLERANCE))
     return fail(WH_INPUT, "wh_session_step: the measurement's rotation is not a rotation matrix");
   if (in.reserved != 0) return fail(WH_ARGUMENT, "wh_session_step: a reserved member of the measurement is not 0");
   if (in.tick < 0 || in.tick > LAST_TICK)
@@ -125,7 +111,7 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
     return fail(WH_INPUT, "wh_session_step: the tick %lld does not come after the tick %lld", static_cast<long long>(in.tick),
                 static_cast<long long>(session->last));
   session->last = in.tick;
-  session->session.step(state_of(in), in.tick, session->tick);
+  session->session.step(state, in.tick, session->tick);
   give_back(output_of(session->tick), output);
   return WH_OK;
 }

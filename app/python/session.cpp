@@ -14,8 +14,6 @@
 #include "app/python/scene.h"
 #include "base/text/error.h"
 #include "core/vectors.h"
-#include "device/loop/gripper.h"
-#include "device/loop/guard.h"
 #include "device/session/hand_view.h"
 
 namespace py = pybind11;

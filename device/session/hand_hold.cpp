@@ -15,7 +15,7 @@ std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const
   const Scene& scene = live.scene;
   if (!scene.strength || tick.vessel < 0 || !is_held(tick.state)) return std::nullopt;
   const auto v = static_cast<std::size_t>(tick.vessel);
-  const HeldHand held(live, v, vessel_pose(tick), posed, tick.touch_mask);
+  const HeldHand held(live, tick, posed);
   const core_f64::HandStrength hand = held.strength();
   const Wrench weight = weight_of(live, v, tick.volume[v], held.up());
   EffortSolver solver(held.contacts(), hand, held.center());

@@ -12,9 +12,8 @@ namespace wholehand {
 
 using core_f64::Vec3;
 
-HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& pose, const std::array<Triple, JOINT_COUNT>& posed,
-                   std::uint32_t touch_mask)
-    : live_(live), stance_(live.stance(pose)) {
+HeldHand::HeldHand(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed)
+    : live_(live), stance_(live.stance(vessel_pose(tick))) {
   std::array<Vec3, JOINT_COUNT> joints;
   for (std::size_t j = 0; j < JOINT_COUNT; ++j) joints[j] = stance_.inward(live.mirror.in(posed[j]));
   const Vec3 apart = joints[INDEX_TIP] - joints[THUMB_TIP];
@@ -22,7 +21,8 @@ HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& 
   if (gap_ > 0) pinch_ = apart / gap_;
   scale_ = core_f64::placed_scale(live.hand, joints);
   std::array<core_f64::PressingJoint, JOINT_COUNT> pressing;
-  const int count = core_f64::find_contacts(live.hand, live.vessels[vessel].vessel, joints, scale_, touch_mask, pressing);
+  const int count = core_f64::find_contacts(live.hand, live.vessels[static_cast<std::size_t>(tick.vessel)].vessel, joints, scale_,
+                                            tick.touch_mask, pressing);
   for (int i = 0; i < count; ++i) {
     const core_f64::ContactPoint& contact = pressing[static_cast<std::size_t>(i)].contact;
     contacts_.push_back(contact);
