@@ -6,7 +6,7 @@ set(WHOLEHAND_FOLDERS
   shaders
   core core/people core/reader core/meshes
   host
-  device/session device/loop device/grippers device/simulated device/recordings device/advice
+  device/session device/loop device/grippers device/simulated device/recordings device/advice device/run
   sweeps/grips sweeps/plan sweeps/lists sweeps/result sweeps/rank sweeps/run sweeps/cluster
   evidence/check evidence/report evidence/trials evidence/studies
   app/program app/viewer app/commands app/c app/python)

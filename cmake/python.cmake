@@ -7,7 +7,7 @@ endif()
 find_package(Python 3.11 REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(pybind11 2.10 REQUIRED)
 
-wholehand_folder(app/python USES device/loop sweeps/run evidence/check app/program
+wholehand_folder(app/python USES device/session sweeps/run evidence/check app/program
   LINKS fmt::fmt pybind11::headers Python::Module)
 add_library(wholehand_python MODULE $<TARGET_OBJECTS:app_python>)
 set_target_properties(wholehand_python PROPERTIES PREFIX "" OUTPUT_NAME _core SUFFIX ".${Python_SOABI}.so"

@@ -94,7 +94,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
       const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.has_cavity());
       entry.vessel = load_vessel(prepared, data, quadrature_, with_liquid, scene.hand.handedness);
       if (data.mesh) {
-        entry.lattice = wholehand::mirrored(data.mesh->body->lattice, scene.hand.handedness);
+        entry.lattice = mirror_(data.mesh->body->lattice);
       } else if (options.lattice_samples > 0) {
         entry.lattice = wholehand::prepare_lattice(prepared, options.lattice_samples, options.lattice_bits == 16,
                                                    wholehand::lattice_margin(scene));
@@ -114,7 +114,6 @@ class CoreEvaluator final : public wholehand::Evaluator {
     GripAnswer answer;
     evaluate(v, input, Wanted{true, true}, answer);
     const Closing& closing = answer.closing;
-    const auto back = [&](Vec3 p) { return wholehand::mirrored(to_triple(p), scene_.hand.handedness); };
     result = GripResult{};
     result.status = answer.status;
     result.trace_steps = closing.steps;
@@ -122,7 +121,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     result.reason = static_cast<wholehand::Reason>(closing.reason);
     if (has_closed(closing)) {
       result.gap = closing.gap;
-      result.midpoint = back(closing.midpoint);
+      result.midpoint = mirror_.out(closing.midpoint);
     }
     if (closing.reason != REASON_NONE) return;
     result.plausible = wholehand::is_plausible(answer.status);
@@ -131,9 +130,9 @@ class CoreEvaluator final : public wholehand::Evaluator {
     result.contact_angles = {static_cast<double>(closing.thumb_angle), static_cast<double>(closing.index_angle)};
     result.closure = closing.closure;
     for (int j = 0; j < JOINTS; ++j) {
-      result.joints[j] = back(answer.joints[j]);
-      result.posed[j] = back(answer.posed[j]);
-      result.proxies[j] = back(answer.proxies[j]);
+      result.joints[j] = mirror_.out(answer.joints[j]);
+      result.posed[j] = mirror_.out(answer.posed[j]);
+      result.proxies[j] = mirror_.out(answer.proxies[j]);
       result.separation[j] = answer.separation[j];
     }
     result.touch_mask = answer.touch_mask;
@@ -180,7 +179,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const HeldForces forces = states_.forces(entry, pinch_of(input, result), load, angle, Real(opening));
     StateResult state;
     state.mass = load.mass;
-    state.center_of_mass = wholehand::mirrored(to_triple(forces.center), scene_.hand.handedness);
+    state.center_of_mass = mirror_.out(forces.center);
     state.pivot_length = forces.pivot_length;
     state.torque = forces.torque;
     state.exact_torque = forces.exact_torque;
@@ -218,15 +217,14 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   std::vector<wholehand::GripContact> contacts(std::size_t v, const GripResult& result) const override {
-    const auto mirror = [&](const Triple& triple) { return wholehand::mirrored(triple, scene_.hand.handedness); };
     std::array<PressingJoint, JOINTS> pressing;
     const std::array<Vec3, JOINTS> posed = posed_of(result);
     const int count = find_contacts(hand_, entries_[v].vessel, posed, placed_scale(hand_, posed), result.touch_mask, pressing);
     std::vector<wholehand::GripContact> contacts;
     for (int i = 0; i < count; ++i) {
       const ContactPoint& contact = pressing[i].contact;
-      contacts.push_back({pressing[i].joint, pressing[i].between, contact.digit, contact.is_tip, mirror(to_triple(contact.place)),
-                          mirror(to_triple(contact.normal))});
+      contacts.push_back({pressing[i].joint, pressing[i].between, contact.digit, contact.is_tip, mirror_.out(contact.place),
+                          mirror_.out(contact.normal)});
     }
     return contacts;
   }
@@ -236,7 +234,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     evaluate(v, grip, {false, false}, answer);
     if (answer.closing.reason != REASON_NONE) return std::nullopt;
     wholehand::PosedHand hand;
-    for (int j = 0; j < JOINTS; ++j) hand[j] = wholehand::mirrored(to_triple(answer.posed[j]), scene_.hand.handedness);
+    for (int j = 0; j < JOINTS; ++j) hand[j] = mirror_.out(answer.posed[j]);
     return hand;
   }
 
@@ -265,14 +263,13 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   double distance(std::size_t v, const Triple& point) const override {
-    return signed_distance(entries_[v].vessel, to_vec3<Real>(wholehand::mirrored(point, scene_.hand.handedness)));
+    return signed_distance(entries_[v].vessel, mirror_.in<Real>(point));
   }
 
   Triple gradient(std::size_t v, const Triple& point) const override {
     int element = -1;
-    const Vec3 gradient =
-        distance_gradient(entries_[v].vessel, to_vec3<Real>(wholehand::mirrored(point, scene_.hand.handedness)), element);
-    return wholehand::mirrored(to_triple(gradient), scene_.hand.handedness);
+    const Vec3 gradient = distance_gradient(entries_[v].vessel, mirror_.in<Real>(point), element);
+    return mirror_.out(gradient);
   }
 
   wholehand::VesselConstants constants(std::size_t v) const override {
@@ -280,7 +277,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     wholehand::VesselConstants result;
     result.capacity = entry.vessel.capacity;
     result.mass = entry.vessel.mass;
-    result.center_of_mass = wholehand::mirrored(to_triple(entry.vessel.center_of_mass), scene_.hand.handedness);
+    result.center_of_mass = mirror_.out(entry.vessel.center_of_mass);
     result.torque_reference = entry.force.reference;
     result.largest_mass = entry.largest.mass;
     result.largest_share = entry.largest_share;
@@ -321,14 +318,14 @@ class CoreEvaluator final : public wholehand::Evaluator {
 
  private:
   void evaluate(std::size_t v, const GripInput& input, Wanted wanted, GripAnswer& answer) const {
-    evaluate_grip(hand_, entries_[v].vessel, static_cast<PoseKind>(static_cast<int>(scene_.pose)),
-                  to_grip(wholehand::mirrored(input, scene_.hand.handedness)), Real(scene_.force.friction), wanted, answer);
+    evaluate_grip(hand_, entries_[v].vessel, static_cast<PoseKind>(static_cast<int>(scene_.pose)), to_grip(mirror_(input)),
+                  Real(scene_.force.friction), wanted, answer);
   }
 
   void put_points(const PlaneRow& row, int field, const Vec3* points, int count) const {
     if (!row.fields.has(field)) return;
     for (int j = 0; j < count; ++j) {
-      const Triple p = wholehand::mirrored(to_triple(points[j]), scene_.hand.handedness);
+      const Triple p = mirror_.out(points[j]);
       for (int k = 0; k < 3; ++k) row.reals[(row.fields.plane[field] + 3 * j + k) * row.stride] = p[k];
     }
   }
@@ -380,7 +377,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
 
   std::array<Vec3, JOINTS> posed_of(const GripResult& result) const {
     std::array<Vec3, JOINTS> posed;
-    for (std::size_t j = 0; j < JOINTS; ++j) posed[j] = to_vec3<Real>(wholehand::mirrored(result.posed[j], scene_.hand.handedness));
+    for (std::size_t j = 0; j < JOINTS; ++j) posed[j] = mirror_.in<Real>(result.posed[j]);
     return posed;
   }
 
@@ -505,9 +502,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
 
   // How this result's grip holds its vessel, in the world of the right hand.
   Pinch pinch_of(const GripInput& input, const GripResult& result) const {
-    const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
-    return {grip_direction(Real(grip.azimuth), Real(grip.obliquity)),
-            to_vec3<Real>(wholehand::mirrored(result.midpoint, scene_.hand.handedness)), result.antipodal};
+    const GripInput grip = mirror_(input);
+    return {grip_direction(Real(grip.azimuth), Real(grip.obliquity)), mirror_.in<Real>(result.midpoint), result.antipodal};
   }
 
   static Load load_of(const VesselEntry& entry, const LiquidResult& liquid) {
@@ -533,6 +529,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   Scene scene_;
+  wholehand::Mirror mirror_{scene_.hand.handedness};
   Hand hand_;
   Quadrature quadrature_;
   SceneStates states_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -8,16 +9,13 @@
 #include "device/session/hand_view.h"
 #include "device/session/reach.h"
 #include "device/session/session.h"
-#include "device/session/vessel_tracker.h"
 #include "sweeps/grips/hand_nodes.h"
 
 using namespace wholehand;
 
 struct wh_session {
-  wh_session(const Scene& scene, std::array<double, 2> gap)
-      : session(scene, gap), tracker(session.live().scene), yielding(session.live().hand) {}
+  wh_session(const Scene& scene, std::array<double, 2> gap) : session(scene, gap), yielding(session.live().hand) {}
   Session session;
-  VesselTracker tracker;
   core_f64::Hand yielding;
   Tick tick;
   std::int64_t last = -1;  // number of the last tick; -1: none yet
@@ -31,28 +29,12 @@ void copy(const std::array<double, N>& from, double* to) noexcept {
   for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
 }
 
-constexpr double ROTATION_TOLERANCE = 1e-3;  // engines rotate in float; anything further off was not meant as a rotation
-
-bool is_finite(const wh_measurement& in) noexcept {
-  const auto all = [](const double* numbers, int count) {
-    for (int k = 0; k < count; ++k)
-      if (!std::isfinite(numbers[k])) return false;
-    return true;
-  };
-  return all(&in.gap, 1) && all(in.position, 3) && all(in.rotation, 9);
-}
-
-bool has_rotation(const wh_measurement& in) noexcept {
-  for (const double x : in.rotation)
-    if (x != 0) return true;
-  return false;
-}
-
 GripperState state_of(const wh_measurement& in) noexcept {
   GripperState state;
-  for (int k = 0; k < 3; ++k) state.position[k] = in.position[k];
-  if (has_rotation(in))
-    for (int k = 0; k < 9; ++k) state.rotation[k] = in.rotation[k];
+  std::copy_n(in.position, 3, state.position.begin());
+  // all zeros mean no rotation
+  if (std::any_of(in.rotation, in.rotation + 9, [](double x) { return x != 0; }))
+    std::copy_n(in.rotation, 9, state.rotation.begin());
   state.gap = in.gap;
   state.buttons = in.buttons;
   return state;
@@ -116,10 +98,11 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
   if (const wh_status status = check_answer(output, "wh_session_step: the output"); status != WH_OK) return status;
   const Entered entered(session->is_in_use);
   if (!entered) return fail(WH_BUSY, "wh_session_step: another thread is in this session");
-  if (!is_finite(in)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
-  if (!is_in_reach(state_of(in)))
+  const GripperState state = state_of(in);
+  if (!is_finite(state)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
+  if (!is_in_reach(state))
     return fail(WH_INPUT, "wh_session_step: the measurement is out of reach; allowed: a position up to 25 m, a gap up to 10 m");
-  if (has_rotation(in) && !is_rotation(state_of(in).rotation, ROTATION_TOLERANCE))
+  if (!is_rotation(state.rotation, ROTATION_TOLERANCE))
     return fail(WH_INPUT, "wh_session_step: the measurement's rotation is not a rotation matrix");
   if (in.reserved != 0) return fail(WH_ARGUMENT, "wh_session_step: a reserved member of the measurement is not 0");
   if (in.tick < 0 || in.tick > LAST_TICK)
@@ -128,8 +111,7 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
     return fail(WH_INPUT, "wh_session_step: the tick %lld does not come after the tick %lld", static_cast<long long>(in.tick),
                 static_cast<long long>(session->last));
   session->last = in.tick;
-  session->session.step(state_of(in), in.tick, session->tick);
-  session->tracker.follow(session->tick);
+  session->session.step(state, in.tick, session->tick);
   give_back(output_of(session->tick), output);
   return WH_OK;
 }
@@ -143,7 +125,7 @@ wh_status wh_session_vessel_at(wh_session* session, size_t index, wh_session_ves
   if (index >= vessels)
     return fail(WH_ARGUMENT, "wh_session_vessel_at: the scene has %zu vessels, and none of number %zu", vessels, index);
   wh_session_vessel own{};
-  const VesselPose& pose = session->tracker.poses()[index];
+  const VesselPose& pose = session->session.poses()[index];
   copy(pose.place, own.place);
   copy(pose.rotation, own.rotation);
   const bool has_stepped = session->last >= 0;
@@ -161,7 +143,7 @@ wh_status wh_session_hand(wh_session* session, wh_hand* hand) {
   if (!entered) return fail(WH_BUSY, "wh_session_hand: another thread is in this session");
   if (session->last < 0) return fail(WH_ARGUMENT, "wh_session_hand: there is no hand before the first step");
   const LiveScene& live = session->session.live();
-  const HandView view = hand_posture(live, session->tick, session->tracker.poses(), session->yielding);
+  const HandView view = hand_posture(live, session->tick, session->session.poses(), session->yielding);
   const HandNodes nodes = hand_nodes(live.scene.hand, live.hand, view.wrist, view.rotation, view.proxies);
   wh_hand own{};
   for (std::size_t j = 0; j < WH_JOINTS; ++j) {

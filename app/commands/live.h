@@ -24,7 +24,7 @@ struct LiveOptions {
   bool view = false;                    // in the browser
   int view_port = 0;                    // 0: any that is free
   bool advise = false;                  // which grip would be better
-  std::string advise_on;                // as for open_backend; empty: default_advice_device()
+  std::string advise_on;                // as for open_backend; empty: vulkan, and core without a device
   bool follow_advice = false;           // the simulated user does
   std::string stream;                   // osc://HOST:PORT; empty: nowhere
   bool json = false;                    // prints only the report at the end on standard output

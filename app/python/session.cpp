@@ -14,10 +14,7 @@
 #include "app/python/scene.h"
 #include "base/text/error.h"
 #include "core/vectors.h"
-#include "device/loop/gripper.h"
-#include "device/loop/guard.h"
 #include "device/session/hand_view.h"
-#include "device/session/vessel_tracker.h"
 
 namespace py = pybind11;
 
@@ -86,7 +83,6 @@ class SessionHandle {
     for (const double one : gap.value_or(std::array<double, 2>{}))
       if (!std::isfinite(one)) throw usage_error("session: a gap of the gripper is not finite");
     session_ = std::make_shared<Session>(scene.whole(), gap_range(scene.whole(), gap));
-    tracker_.emplace(session_->live().scene);
     step_.session = session_;
   }
 
@@ -100,8 +96,7 @@ class SessionHandle {
     if (number <= last_) throw usage_error(fmt::format("session: tick {} after {}; allowed: a greater one", number, last_));
     last_ = number;
     session_->step(state, number, step_.tick);
-    tracker_->follow(step_.tick);
-    step_.poses = tracker_->poses();
+    step_.poses = session_->poses();
     return step_;
   }
 
@@ -150,7 +145,6 @@ class SessionHandle {
   }
 
   std::shared_ptr<Session> session_;
-  std::optional<VesselTracker> tracker_;
   Step step_;
   std::int64_t last_ = -1;
   std::thread::id owner_;

@@ -208,7 +208,7 @@ std::string frame_json(const ViewFrame& frame) {
 
 FrameMaker::FrameMaker(const LiveScene& live) : live_(live), table_(table_height(live.scene)), rests_(live.vessels.size()) {}
 
-ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const HandView& hand, const ViewFrame::Timing& timing) {
+ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const HandView& hand, const DisplayTiming& timing) {
   const Scene& scene = live_.scene;
   ViewFrame frame;
   frame.time = static_cast<double>(tick.number) / scene.live.rate;

@@ -9,6 +9,7 @@
 
 #include "core/quaternion.h"
 #include "device/advice/advice.h"
+#include "device/run/display_loop.h"
 #include "device/session/hand_view.h"
 #include "device/session/vessel_tracker.h"
 
@@ -45,11 +46,6 @@ struct ViewFrame {
     double volume = 0;  // m3
     std::optional<LiquidSurface> surface;
   };
-  struct Timing {
-    double rate = 0;  // Hz, of the loop; NaN: it has no clock
-    double step = 0;  // s; likewise
-    std::int64_t missed = 0;
-  };
 
   double time = 0;  // s
   std::int64_t tick = 0;
@@ -68,7 +64,7 @@ struct ViewFrame {
   std::optional<FrameAdvice> advice;  // absent: advice is off, or no vessel is near
   int guidance = -1;                  // modulo each vessel's count
   bool is_done = false;
-  Timing timing;
+  DisplayTiming timing;
 };
 
 // One JSON object in one line. Numbers have a float's digits: tenths of a micrometer in a hand.
@@ -79,7 +75,7 @@ class FrameMaker {
  public:
   // `live` must outlive it.
   explicit FrameMaker(const LiveScene& live);
-  ViewFrame make(const Tick& tick, const VesselPoses& poses, const HandView& hand, const ViewFrame::Timing& timing);
+  ViewFrame make(const Tick& tick, const VesselPoses& poses, const HandView& hand, const DisplayTiming& timing);
 
  private:
   struct Rest {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "app/viewer/display_loop.h"
+#include "app/viewer/frame.h"
 #include "app/viewer/scene.h"
 #include "app/viewer/server.h"
 
@@ -21,7 +21,7 @@ class LiveView final : public Display {
   bool is_watched() override { return frames_.viewers() > 0; }
   void show(const DisplayMoment& moment) noexcept override;
   // Tells viewers why there are no more frames, and ends the server.
-  void end(const std::string& reason);
+  void end(const std::string& reason) override;
 
  private:
   const LiveScene& live_;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/display_loop.h"
+#include "app/viewer/frame.h"
 #include "base/system/osc_bundle.h"
 #include "base/system/udp.h"
 #include "device/session/session.h"

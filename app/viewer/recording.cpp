@@ -46,10 +46,10 @@ std::size_t RecordingView::tick_by(double time) const {
   return after == ticks.begin() ? 0 : static_cast<std::size_t>(after - ticks.begin()) - 1;
 }
 
-ViewFrame::Timing RecordingView::timing_of(std::size_t tick) const {
+DisplayTiming RecordingView::timing_of(std::size_t tick) const {
   const std::vector<Tick>& ticks = recording_.ticks;
   const double rate = recording_.info.rate;
-  ViewFrame::Timing timing;
+  DisplayTiming timing;
   if (!recording_.info.has_clock) {
     timing.rate = timing.step = Tick::NONE;
     return timing;

@@ -28,7 +28,7 @@ class RecordingView {
 
  private:
   std::size_t tick_by(double time) const;
-  ViewFrame::Timing timing_of(std::size_t tick) const;
+  DisplayTiming timing_of(std::size_t tick) const;
   std::string answer(const ViewContent::Query& query) const;
 
   Recording recording_;

@@ -23,12 +23,12 @@ namespace wholehand {
 // Shared by the thread and its owner. The thread keeps it alive if a hanging device is abandoned.
 struct AdviceLoop::Shared {
   Shared(const Scene& scene, bool is_followed_in, double patience_in)
-      : live(scene), is_followed(is_followed_in), patience(patience_in), tracker(live.scene) {}
+      : live(scene), is_followed(is_followed_in), patience(patience_in) {}
 
   void run(std::promise<void>& opened, const AdviserOpener& open);
   std::unique_ptr<Adviser> open_adviser(std::promise<void>& opened, const AdviserOpener& open);
   void go_on(Adviser& adviser);
-  bool wait_for_moment(Tick& tick, VesselPoses& poses);
+  bool wait_for_moment(Tick& moment, VesselPoses& where);
   void put(Advice advice, double began, std::string place);
   void end(const std::string& why);
   bool is_late() const;  // under the mutex
@@ -43,7 +43,7 @@ struct AdviceLoop::Shared {
   std::condition_variable wake, gone;
   bool is_new = false, is_over = false;
   Tick tick;
-  VesselTracker tracker;
+  VesselPoses poses;
   std::shared_ptr<const Advice> newest;
   std::vector<std::string> warnings;
   AdviceTally tally;
@@ -102,11 +102,11 @@ std::unique_ptr<Adviser> AdviceLoop::Shared::open_adviser(std::promise<void>& op
 // Computes an update for each moment, until it must end.
 void AdviceLoop::Shared::go_on(Adviser& adviser) {
   Tick moment;
-  VesselPoses poses;
+  VesselPoses where;
   std::size_t grips = STEP_CLOUD;
-  while (wait_for_moment(moment, poses)) {
+  while (wait_for_moment(moment, where)) {
     const double began = monotonic_now();
-    Advice advice = advice_of(live, moment, poses, adviser, grips, is_followed, &stop);
+    Advice advice = advice_of(live, moment, where, adviser, grips, is_followed, &stop);
     if (stop) return;
     if (is_followed) shown.put(shown_grip(live.scene, advice, adviser));
     if (advice.grips > 0) grips = next_cloud(grips, monotonic_now() - began);
@@ -120,13 +120,13 @@ void AdviceLoop::Shared::go_on(Adviser& adviser) {
 }
 
 // False: it is to end.
-bool AdviceLoop::Shared::wait_for_moment(Tick& moment, VesselPoses& poses) {
+bool AdviceLoop::Shared::wait_for_moment(Tick& moment, VesselPoses& where) {
   std::unique_lock lock(mutex);
   wake.wait(lock, [this] { return stop || is_new; });
   if (stop) return false;
   is_new = false;
   moment = tick;
-  poses = tracker.poses();
+  where = poses;
   asked = monotonic_now();
   return true;
 }
@@ -191,12 +191,11 @@ AdviceLoop::~AdviceLoop() {
   shared_->gone.wait_for(lock, std::chrono::duration<double>(STOP_PATIENCE), [this] { return shared_->is_over; });
 }
 
-void AdviceLoop::look(std::span<const Tick> ticks) {
-  if (ticks.empty()) return;
+void AdviceLoop::look(const Tick& tick, const VesselPoses& poses) {
   {
     const std::lock_guard lock(shared_->mutex);
-    for (const Tick& tick : ticks) shared_->tracker.follow(tick);
-    shared_->tick = ticks.back();
+    shared_->tick = tick;
+    shared_->poses = poses;
     shared_->is_new = true;
   }
   shared_->wake.notify_all();
@@ -218,8 +217,6 @@ std::vector<std::string> AdviceLoop::take_warnings() {
 }
 
 ShownGripSource& AdviceLoop::shown() { return shared_->shown; }
-
-std::string AdviceLoop::place() const { return tally().place; }
 
 AdviceTally AdviceLoop::tally() const {
   const std::lock_guard lock(shared_->mutex);

@@ -2,16 +2,13 @@
 // The advice of a session with a clock. It runs on its own thread, independent of the haptic thread.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "device/advice/live_advice.h"
 #include "device/advice/moment.h"
-#include "device/simulated/shown_grip.h"
 
 namespace wholehand {
 
@@ -20,19 +17,7 @@ constexpr double LEAST_ADVICE_RATE = 5;  // Hz: clouds shrink if an update takes
 constexpr double ANSWER_PATIENCE = 1;    // s: a longer update is late, and the previous advice is then too old
 constexpr int ADVICE_NICENESS = 10;      // its threads, besides those of the loop
 
-// The advice in a session's report.
-struct AdviceTally {
-  std::string place;            // what it is computed on
-  std::uint64_t updates = 0;    // with a vessel near
-  std::uint64_t grips = 0;      // asked for in them
-  double longest = 0;           // s between two consecutive such updates
-  double seconds = 0;           // total of these, s
-  std::uint64_t intervals = 0;  // number of intervals
-
-  double rate() const { return seconds > 0 ? static_cast<double>(intervals) / seconds : 0; }  // updates a second
-};
-
-class AdviceLoop {
+class AdviceLoop final : public LiveAdvice {
  public:
   // Opens the device on a thread of lower priority, and returns when it is open. Construct it before the session starts, because pipelines take
   // seconds. Throws Error as Adviser does. Later faults end the advice, not the session. `is_followed`: a simulated user follows it, and gets the
@@ -42,23 +27,18 @@ class AdviceLoop {
   using AdviserOpener = std::function<std::unique_ptr<Adviser>(const Scene&)>;
   AdviceLoop(const Scene& scene, AdviserOpener open, bool is_followed = false, double patience = ANSWER_PATIENCE);
   // Stops. A device that does not answer within STOP_PATIENCE is abandoned with its thread.
-  ~AdviceLoop();
+  ~AdviceLoop() override;
   AdviceLoop(const AdviceLoop&) = delete;
   AdviceLoop& operator=(const AdviceLoop&) = delete;
 
-  // Takes all ticks in order, from one thread. Only copies; never waits.
-  void look(std::span<const Tick> ticks);
-  // The newest advice; from any thread. Nothing before the first, while an update exceeds the patience, and after the advice has ended. The same
-  // object until the next.
-  std::shared_ptr<const Advice> newest() const;
-  // Lines that the user must see, each once; from any thread: the device failed, and the advice has ended or continues; or the device does not
-  // answer.
-  std::vector<std::string> take_warnings();
-  // For the haptic thread.
-  ShownGripSource& shown();
-  // What it computes on, as Adviser::place.
-  std::string place() const;
-  AdviceTally tally() const;
+  // Takes the newest tick. Only copies; never waits.
+  void look(const Tick& tick, const VesselPoses& poses) override;
+  // Nothing before the first, while an update exceeds the patience, and after the advice has ended.
+  std::shared_ptr<const Advice> newest() const override;
+  // The device failed, and the advice has ended or continues; or the device does not answer.
+  std::vector<std::string> take_warnings() override;
+  ShownGripSource& shown() override;
+  AdviceTally tally() const override;
 
   static constexpr double STOP_PATIENCE = 2;  // s
 

@@ -16,7 +16,7 @@ Advice advice_of(const LiveScene& live, const Tick& tick, const VesselPoses& pos
     advice.rotation = poses[v].rotation;
     if (approach->is_held) {
       core_f64::Hand yielding = live.hand;
-      advice.ahead = tilts_ahead(live, tick, poses[v], hand_posture(live, tick, poses, yielding).posed);
+      advice.ahead = tilts_ahead(live, tick, hand_posture(live, tick, poses, yielding).posed);
     }
   }
   advice.tick = tick.number;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/contact.h"
-#include "core/mirror.h"
 #include "core/vectors.h"
 #include "device/advice/cloud.h"
 
@@ -16,21 +15,8 @@ using core_f64::Vec3;
 
 namespace {
 
-// A vessel's pose in the world of the right hand.
-struct Stance {
-  Vec3 place{};
-  Mat3 rotation{1};
-};
-
-Stance stance_of(const VesselPose& pose, Handedness handedness) {
-  return {to_vec3(mirrored(pose.place, handedness)), mirrored(to_mat3(pose.rotation), handedness)};
-}
-
-std::array<Vec3, 2> tips_in(const Tick& tick, const Stance& stance, Handedness handedness) {
-  std::array<Vec3, 2> tips;
-  for (std::size_t k = 0; k < 2; ++k)
-    tips[k] = glm::transpose(stance.rotation) * (to_vec3(mirrored(tick.proxies[k], handedness)) - stance.place);
-  return tips;
+std::array<Vec3, 2> tips_in(const LiveScene& live, const Tick& tick, const Stance& stance) {
+  return {stance.inward(live.mirror.in(tick.proxies[0])), stance.inward(live.mirror.in(tick.proxies[1]))};
 }
 
 // How far the further of the two tips is from the surface, m.
@@ -47,8 +33,7 @@ int vessel_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses)
   int nearest = -1;
   double least = NEAR_VESSEL;
   for (std::size_t v = 0; v < live.vessels.size(); ++v) {
-    const Handedness handedness = live.scene.hand.handedness;
-    const double away = away_from(live, v, tips_in(tick, stance_of(poses[v], handedness), handedness));
+    const double away = away_from(live, v, tips_in(live, tick, live.stance(poses[v])));
     if (away > least) continue;
     least = away;
     nearest = static_cast<int>(v);
@@ -82,15 +67,14 @@ std::optional<Approach> approach_of(const LiveScene& live, const Tick& tick, con
   if (tick.state == SessionState::released || is_returning(tick.state)) return std::nullopt;
   const int vessel = vessel_of(live, tick, poses);
   if (vessel < 0) return std::nullopt;
-  const Handedness handedness = live.scene.hand.handedness;
-  const Stance stance = stance_of(poses[static_cast<std::size_t>(vessel)], handedness);
-  const Mat3 axes = glm::transpose(stance.rotation) * mirrored(to_mat3(tick.hand_rotation), handedness);
-  const std::optional<GripInput> grip = grip_of_tips(tips_in(tick, stance, handedness), axes);
+  const Stance stance = live.stance(poses[static_cast<std::size_t>(vessel)]);
+  const Mat3 axes = glm::transpose(stance.rotation) * live.mirror.in(tick.hand_rotation);
+  const std::optional<GripInput> grip = grip_of_tips(tips_in(live, tick, stance), axes);
   if (!grip) return std::nullopt;
   const VesselData& data = live.scene.vessels[static_cast<std::size_t>(vessel)];
   // a hand that is over the vessel, or under it, is not at it
   if (grip->height < data.base - REACH_HEIGHT || grip->height > data.height + REACH_HEIGHT) return std::nullopt;
-  return Approach{vessel, is_held(tick.state), mirrored(*grip, handedness)};
+  return Approach{vessel, is_held(tick.state), live.mirror(*grip)};
 }
 
 }  // namespace wholehand

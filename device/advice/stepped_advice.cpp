@@ -19,17 +19,15 @@ SteppedAdvice::SteppedAdvice(const Scene& scene, const AdviceLoop::AdviserOpener
     : live_(scene),
       options_(options),
       adviser_(open(scene)),
-      tracker_(scene),
       period_(std::max<std::int64_t>(1, std::llround(scene.live.rate / LEAST_ADVICE_RATE))) {
   tally_.place = adviser_->place();
 }
 
-void SteppedAdvice::look(const Tick& tick) noexcept {
-  tracker_.follow(tick);
+void SteppedAdvice::look(const Tick& tick, const VesselPoses& poses) noexcept {
   if (tick.number < due_ || !adviser_) return;
   due_ = (tick.number / period_ + 1) * period_;
   try {
-    ask(tick);
+    ask(tick, poses);
   } catch (const std::exception& error) {
     adviser_.reset();
     coming_.reset();
@@ -42,11 +40,10 @@ void SteppedAdvice::look(const Tick& tick) noexcept {
 }
 
 // The answer to the question of the last moment is there now.
-void SteppedAdvice::ask(const Tick& tick) {
-  auto found = std::make_shared<const Advice>(
-      is_held(tick.state) && !options_.while_held
-          ? Advice{}
-          : advice_of(live_, tick, tracker_.poses(), *adviser_, options_.grips, options_.keeps_line));
+void SteppedAdvice::ask(const Tick& tick, const VesselPoses& poses) {
+  auto found = std::make_shared<const Advice>(is_held(tick.state) && !options_.while_held
+                                                  ? Advice{}
+                                                  : advice_of(live_, tick, poses, *adviser_, options_.grips, options_.keeps_line));
   std::swap(grip_, coming_grip_);
   is_grip_new_ = coming_ != nullptr;
   coming_grip_ = shown_grip(live_.scene, *found, *adviser_);

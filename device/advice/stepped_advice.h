@@ -6,13 +6,12 @@
 #include <mutex>
 
 #include "device/advice/advice_loop.h"
-#include "device/simulated/shown_grip.h"
 
 namespace wholehand {
 
 // Every 1 / LEAST_ADVICE_RATE s of session time, computes advice for that tick with STEP_CLOUD grips. The advice appears at the next such tick: it
 // counts as having taken that long.
-class SteppedAdvice final : public ShownGripSource {
+class SteppedAdvice final : public LiveAdvice, public ShownGripSource {
  public:
   struct Options {
     int threads = 0;          // of the core; 0: all
@@ -25,24 +24,23 @@ class SteppedAdvice final : public ShownGripSource {
   // With a custom adviser.
   SteppedAdvice(const Scene& scene, const AdviceLoop::AdviserOpener& open, const Options& options);
 
-  // Takes all ticks in order on the loop's thread, which waits. A device that fails ends the advice.
-  void look(const Tick& tick) noexcept;
+  // Takes all ticks on the loop's thread, which waits. A device that fails ends the advice.
+  void look(const Tick& tick, const VesselPoses& poses) noexcept override;
   // For the same thread.
   bool take(std::int64_t tick, ShownGrip& grip) noexcept override;
 
-  // Callable from any thread, like those of AdviceLoop. The tally has no times.
-  std::shared_ptr<const Advice> newest() const;
-  std::vector<std::string> take_warnings();
-  AdviceTally tally() const;
+  ShownGripSource& shown() override { return *this; }
+  std::shared_ptr<const Advice> newest() const override;
+  std::vector<std::string> take_warnings() override;
+  AdviceTally tally() const override;  // has no times
 
  private:
-  void ask(const Tick& tick);
+  void ask(const Tick& tick, const VesselPoses& poses);
 
   const LiveScene live_;
   Options options_;
   std::unique_ptr<Adviser> adviser_;  // none after a failure
-  VesselTracker tracker_;
-  std::int64_t period_;  // ticks
+  std::int64_t period_;               // ticks
   std::int64_t due_ = 0;
   std::shared_ptr<const Advice> coming_;  // shown at the next moment
   ShownGrip coming_grip_, grip_;

@@ -130,8 +130,8 @@ ViewInput::ViewInput(const Scene& scene, std::array<double, 2> hand_gap) : works
 
 GripperState ViewInput::state_of(const ViewControl& control) const noexcept {
   HandPose pose;
-  pose.middle = workspace_.mirrored(to_vec3(control.position));
-  pose.rotation = workspace_.mirrored(to_mat3(control.rotation));
+  pose.middle = workspace_.mirror().in(control.position);
+  pose.rotation = workspace_.mirror().in(control.rotation);
   pose.gap = control.gap;  // kept within the hand's by unmap
   GripperState state = workspace_.unmap(pose);
   state.buttons = control.buttons;

@@ -2,7 +2,6 @@
 // The interface of a two-finger haptic gripper.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -14,17 +13,11 @@
 #include "base/text/error.h"
 #include "core/vectors.h"
 #include "device/loop/release_result.h"
-#include "device/session/tick.h"
+#include "device/session/reach.h"
 
 namespace wholehand {
 
 // Whether every number in it is finite.
-inline bool is_finite(const GripperState& state) {
-  const auto is_number = [](double x) { return std::isfinite(x); };
-  return std::all_of(state.position.begin(), state.position.end(), is_number) &&
-         std::all_of(state.rotation.begin(), state.rotation.end(), is_number) && std::isfinite(state.gap) &&
-         std::isfinite(state.time);
-}
 inline bool is_finite(const GripperForce& force) {
   return std::isfinite(force.arm[0]) && std::isfinite(force.arm[1]) && std::isfinite(force.arm[2]) && std::isfinite(force.grip);
 }

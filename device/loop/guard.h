@@ -49,8 +49,7 @@ class Guard {
 // Angle between two rotations, rad: accurate for small ones.
 double turned_by(const Rotation& a, const Rotation& b) noexcept;
 
-constexpr double ROTATION_TOLERANCE = 1e-3;  // a tenth of a degree of skew means a broken sensor
-constexpr double STALL = 15e-3;              // s: less than the watchdog period of a device
-constexpr double JUMP_TURN = 100;            // rad/s: a quick wrist turns at 30
+constexpr double STALL = 15e-3;    // s: less than the watchdog period of a device
+constexpr double JUMP_TURN = 100;  // rad/s: a quick wrist turns at 30
 
 }  // namespace wholehand

@@ -11,12 +11,11 @@ using core_f64::EffortSolver;
 using core_f64::Vec3;
 using core_f64::Wrench;
 
-std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
-                                  const std::array<Triple, JOINT_COUNT>& posed) {
+std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed) {
   const Scene& scene = live.scene;
   if (!scene.strength || tick.vessel < 0 || !is_held(tick.state)) return std::nullopt;
   const auto v = static_cast<std::size_t>(tick.vessel);
-  const HeldHand held(live, v, vessel, posed, tick.touch_mask);
+  const HeldHand held(live, tick, posed);
   const core_f64::HandStrength hand = held.strength();
   const Wrench weight = weight_of(live, v, tick.volume[v], held.up());
   EffortSolver solver(held.contacts(), hand, held.center());

@@ -33,9 +33,8 @@ struct HandHold {
   double tips_force() const { return tips * strength; }
 };
 
-// The hold of a tick in which the vessel at `vessel` is held; `posed` are the joints that rest on it. World frame of the scene. Nothing if the scene
+// The hold of a tick in which a vessel is held; `posed` are the joints that rest on it. World frame of the scene. Nothing if the scene
 // has no strengths, or nothing is held. It depends only on these arguments, so a recording shows what its session did.
-std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
-                                  const std::array<Triple, JOINT_COUNT>& posed);
+std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed);
 
 }  // namespace wholehand

@@ -6,7 +6,6 @@
 
 #include "core/contacts.h"
 #include "core/joints.h"
-#include "core/mirror.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
 
@@ -21,28 +20,14 @@ constexpr double OPPOSED = 0.5;  // cosine between a contact's normal and the li
 
 constexpr bool is_tracked(int joint) { return joint == THUMB_TIP || joint == INDEX_TIP; }
 
-// A vessel's pose in the world of the right hand, as kernels take it.
-struct Stance {
-  Vec3 place{};
-  Mat3 rotation{1};
-  Vec3 inward(Vec3 p) const { return glm::transpose(rotation) * (p - place); }
-  Vec3 outward(Vec3 p) const { return place + rotation * p; }
-};
-
-// Between the scene's world and that of the right hand; the same both ways.
-Mat3 across(const Mat3& rotation, Handedness handedness) { return mirrored(rotation, handedness); }
-Vec3 across(const Triple& point, Handedness handedness) { return to_vec3(mirrored(point, handedness)); }
-Triple back(Vec3 point, Handedness handedness) { return mirrored(to_triple(point), handedness); }
-
 // The hand under way, in the world of the right hand.
 class View {
  public:
   View(const LiveScene& live, const Tick& tick, const VesselPoses& poses, core_f64::Hand& yielding)
-      : live_(live), tick_(tick), yielding_(yielding), handedness_(live.scene.hand.handedness) {
-    for (std::size_t v = 0; v < live.vessels.size(); ++v)
-      stances_[v] = {across(poses[v].place, handedness_), across(to_mat3(poses[v].rotation), handedness_)};
-    rotation_ = across(to_mat3(tick.hand_rotation), handedness_);
-    for (int k = 0; k < 2; ++k) tips_[k] = across(tick.proxies[k], handedness_);
+      : live_(live), tick_(tick), yielding_(yielding) {
+    for (std::size_t v = 0; v < live.vessels.size(); ++v) stances_[v] = live.stance(poses[v]);
+    rotation_ = live.mirror.in(tick.hand_rotation);
+    for (int k = 0; k < 2; ++k) tips_[k] = live.mirror.in(tick.proxies[k]);
   }
 
   HandView make() {
@@ -62,8 +47,8 @@ class View {
       mark(touching);
     }
     for (int j = 0; j < JOINT_COUNT; ++j) {
-      view_.posed[j] = back(posed_[j], handedness_);
-      view_.proxies[j] = back(proxies_[j], handedness_);
+      view_.posed[j] = live_.mirror.out(posed_[j]);
+      view_.proxies[j] = live_.mirror.out(proxies_[j]);
     }
     return view_;
   }
@@ -75,11 +60,11 @@ class View {
     core_f64::Closing closing;
     closing.closure = tick_.closure;
     closing.placement =
-        place_live_hand(live_.hand, tick_.closure, rotation_, across(tick_.middle, handedness_), live_.hand.scale, e1_x);
+        place_live_hand(live_.hand, tick_.closure, rotation_, live_.mirror.in(tick_.middle), live_.hand.scale, e1_x);
     core_f64::GripAnswer answer;
     rest_hand(live_.hand, live_.vessels[0].vessel, core_f64::PoseKind::rigged, closing, 0, {true, false}, answer);
-    for (int j = 0; j < JOINT_COUNT; ++j) view_.rigged[j] = back(answer.joints[j], handedness_);
-    view_.rigged_wrist = back(closing.placement.translation, handedness_);
+    for (int j = 0; j < JOINT_COUNT; ++j) view_.rigged[j] = live_.mirror.out(answer.joints[j]);
+    view_.rigged_wrist = live_.mirror.out(closing.placement.translation);
   }
 
   // Before a grasp: the nearest vessel, and how far the other fingers have come to it.
@@ -144,8 +129,8 @@ class View {
     posed_[THUMB_TIP] = tips_[0];
     posed_[INDEX_TIP] = tips_[1];
     proxies_ = posed_;
-    view_.wrist = back(stance.outward(closing.placement.translation), handedness_);
-    view_.rotation = to_rotation(across(stance.rotation * closing.placement.rotation, handedness_));
+    view_.wrist = live_.mirror.out(stance.outward(closing.placement.translation));
+    view_.rotation = live_.mirror.out(stance.rotation * closing.placement.rotation);
   }
 
   // Kernel 4 on the points, in the frame of a vessel: those inside go out of it. Returns which touch it.
@@ -182,7 +167,6 @@ class View {
   const LiveScene& live_;
   const Tick& tick_;
   core_f64::Hand& yielding_;
-  Handedness handedness_;
   std::array<Stance, LIVE_VESSELS> stances_;
   Mat3 rotation_{1};
   std::array<Vec3, 2> tips_{};
@@ -208,7 +192,7 @@ HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses
 HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses) {
   core_f64::Hand yielding = live.hand;
   HandView view = hand_posture(live, tick, poses, yielding);
-  if (tick.vessel >= 0) view.hold = hand_hold(live, tick, poses[static_cast<std::size_t>(tick.vessel)], view.posed);
+  view.hold = hand_hold(live, tick, view.posed);
   return view;
 }
 

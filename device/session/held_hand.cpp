@@ -6,29 +6,23 @@
 
 #include "core/grip_effort.h"
 #include "core/load.h"
-#include "core/mirror.h"
 #include "core/vectors.h"
 
 namespace wholehand {
 
-using core_f64::Mat3;
 using core_f64::Vec3;
 
-HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& pose, const std::array<Triple, JOINT_COUNT>& posed,
-                   std::uint32_t touch_mask)
-    : live_(live) {
-  const Handedness handedness = live.scene.hand.handedness;
-  place_ = to_vec3(mirrored(pose.place, handedness));
-  turn_ = mirrored(to_mat3(pose.rotation), handedness);
-  const Mat3 back = glm::transpose(turn_);
+HeldHand::HeldHand(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed)
+    : live_(live), stance_(live.stance(vessel_pose(tick))) {
   std::array<Vec3, JOINT_COUNT> joints;
-  for (std::size_t j = 0; j < JOINT_COUNT; ++j) joints[j] = back * (to_vec3(mirrored(posed[j], handedness)) - place_);
+  for (std::size_t j = 0; j < JOINT_COUNT; ++j) joints[j] = stance_.inward(live.mirror.in(posed[j]));
   const Vec3 apart = joints[INDEX_TIP] - joints[THUMB_TIP];
   gap_ = glm::length(apart);
   if (gap_ > 0) pinch_ = apart / gap_;
   scale_ = core_f64::placed_scale(live.hand, joints);
   std::array<core_f64::PressingJoint, JOINT_COUNT> pressing;
-  const int count = core_f64::find_contacts(live.hand, live.vessels[vessel].vessel, joints, scale_, touch_mask, pressing);
+  const int count = core_f64::find_contacts(live.hand, live.vessels[static_cast<std::size_t>(tick.vessel)].vessel, joints, scale_,
+                                            tick.touch_mask, pressing);
   for (int i = 0; i < count; ++i) {
     const core_f64::ContactPoint& contact = pressing[static_cast<std::size_t>(i)].contact;
     contacts_.push_back(contact);
@@ -39,11 +33,11 @@ HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& 
 
 core_f64::HandStrength HeldHand::strength() const { return core_f64::load_strength(live_.scene, gap_, scale_); }
 
-Triple HeldHand::place_out(Vec3 place) const { return mirrored(to_triple(place_ + turn_ * place), live_.scene.hand.handedness); }
+Triple HeldHand::place_out(Vec3 place) const { return live_.mirror.out(stance_.outward(place)); }
 
-Triple HeldHand::turned_out(Vec3 v) const { return mirrored(to_triple(turn_ * v), live_.scene.hand.handedness); }
+Triple HeldHand::turned_out(Vec3 v) const { return live_.mirror.out(stance_.rotation * v); }
 
-Vec3 HeldHand::up() const { return glm::transpose(turn_) * Vec3(0, 1, 0); }
+Vec3 HeldHand::up() const { return glm::transpose(stance_.rotation) * Vec3(0, 1, 0); }
 
 Vec3 HeldHand::pinch() const { return pinch_; }
 

@@ -8,17 +8,14 @@
 #include "core/contacts.h"
 #include "core/held.h"
 #include "device/session/live_scene.h"
-#include "device/session/vessel_tracker.h"
 
 namespace wholehand {
 
 // Everything is in the vessel's own frame, in the world of the right hand; m, N.
 class HeldHand {
  public:
-  // `vessel` is at `pose`, and `posed` are the joints that rest on it, both in the scene's world; the scene has [strength]. `touch_mask` as in a
-  // tick.
-  HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& pose, const std::array<Triple, JOINT_COUNT>& posed,
-           std::uint32_t touch_mask);
+  // `tick` has a held vessel, `posed` are the joints that rest on it, in the scene's world, and the scene has [strength].
+  HeldHand(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed);
 
   const std::vector<core_f64::ContactPoint>& contacts() const { return contacts_; }
   const std::vector<core_f64::ContactPoint>& tips() const { return tips_; }  // of thumb and index finger
@@ -36,8 +33,7 @@ class HeldHand {
 
  private:
   const LiveScene& live_;
-  core_f64::Vec3 place_{};
-  core_f64::Mat3 turn_{1};
+  Stance stance_;
   core_f64::Vec3 pinch_{1, 0, 0};
   double gap_ = 0, scale_ = 1;
   std::vector<core_f64::ContactPoint> contacts_, tips_;

@@ -65,7 +65,7 @@ bool stand_in_each_other(const LiveVessel& a, double height_a, const LiveVessel&
 
 }  // namespace
 
-LiveScene::LiveScene(const Scene& given) : scene(given) {
+LiveScene::LiveScene(const Scene& given) : scene(given), mirror(scene.hand.handedness) {
   if (scene.vessels.empty() || scene.vessels.size() > LIVE_VESSELS) {
     throw usage_error(at_place(scene.file, "a live session has 1 to " + std::to_string(LIVE_VESSELS) + " vessels; this scene has " +
                                                std::to_string(scene.vessels.size())));

@@ -7,10 +7,20 @@
 #include "core/force.h"
 #include "core/hand.h"
 #include "core/liquid.h"
+#include "core/mirror.h"
 #include "core/scene.h"
 #include "core/sdf.h"
+#include "device/session/vessel_tracker.h"
 
 namespace wholehand {
+
+// A vessel's pose in the world of the right hand, as kernels take it.
+struct Stance {
+  core_f64::Vec3 place{};
+  core_f64::Mat3 rotation{1};
+  core_f64::Vec3 inward(core_f64::Vec3 p) const { return glm::transpose(rotation) * (p - place); }
+  core_f64::Vec3 outward(core_f64::Vec3 p) const { return place + rotation * p; }
+};
 
 // A vessel prepared for a session, in the world of the right hand.
 struct LiveVessel {
@@ -27,7 +37,9 @@ struct LiveVessel {
 // vessels that overlap.
 struct LiveScene {
   explicit LiveScene(const Scene& scene);
+  Stance stance(const VesselPose& pose) const { return {mirror.in(pose.place), mirror.in(pose.rotation)}; }
   Scene scene;
+  Mirror mirror;  // to the world of its right hand
   core_f64::Hand hand;
   core_f64::Quadrature quadrature;
   std::vector<LiveVessel> vessels;

@@ -35,6 +35,7 @@ Session::Session(const Scene& scene, std::array<double, 2> device_gap)
     : live_(std::make_unique<const LiveScene>(scene)),
       workspace_(scene, device_gap, gap_of(live_->hand)),
       pouring_(volumes_of(*live_), scene.task, scene.gravity, scene.live.rate),
+      vessels_(live_->scene),
       period_(1 / scene.live.rate),
       radii_{live_->hand.scale * live_->hand.radius[0][3], live_->hand.scale * live_->hand.radius[1][4]} {
   for (const LiveVessel& vessel : live_->vessels) obstacles_.standing[obstacles_.count++] = {&vessel.vessel, vessel.home, false};
@@ -84,6 +85,7 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
   tick.grasps = grasps_;
   tick.lost = lost_;
   tick.destinations = destinations_;
+  vessels_.follow(tick);
   tips_before_ = tips_;
   number_ = number;
 }
@@ -128,8 +130,8 @@ void Session::approach(const HandPose& pose, Tick& tick) noexcept {
       const Vec3 velocity = (tips_[k] - tips_before_[k]) / seconds_;
       forces[k] = core_f64::coupling_force(tips_[k], proxy.place, proxy.normal, velocity, live.stiffness, live.damping);
     }
-    tick.coupling[k] = to_triple(workspace_.mirrored(forces[k]));
-    tick.proxies[k] = to_triple(workspace_.mirrored(proxy.place));
+    tick.coupling[k] = live_->mirror.out(forces[k]);
+    tick.proxies[k] = live_->mirror.out(proxy.place);
   }
   tick.wanted.arm = workspace_.to_device(forces[0] + forces[1]);
   // what moves both tips apart by one meter of gap moves each by half of it
@@ -223,7 +225,7 @@ void Session::keep_grasp(const Touch& touch, const HandPose& pose, const core_f6
 void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept {
   const LiveVessel& live = live_->vessels[vessel_];
   // the vessel keeps the place and the turn that it had in the gripper's axes at the grasp
-  const Pose vessel{pose.middle + pose.rotation * grasp_.offset, pose.rotation * grasp_.turn};
+  const Stance vessel{pose.middle + pose.rotation * grasp_.offset, pose.rotation * grasp_.turn};
   const Leaning leaning = leaning_of(vessel);
   tick.tilt = std::atan2(leaning.sine, leaning.cosine);
   // what runs out in this tick no longer weighs
@@ -246,7 +248,7 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   }
 }
 
-Session::Leaning Session::leaning_of(const Pose& vessel) const noexcept {
+Session::Leaning Session::leaning_of(const Stance& vessel) const noexcept {
   const Vec3 up = glm::transpose(vessel.rotation) * Vec3(0, 1, 0);
   const double sine = std::sqrt(up.x * up.x + up.z * up.z), cosine = up.y;
   const bool is_upright = sine < core_f64::UPRIGHT_SINE;
@@ -257,7 +259,7 @@ Session::Leaning Session::leaning_of(const Pose& vessel) const noexcept {
 }
 
 // Pours out what runs over; returns the weight of the vessel with the rest.
-core_f64::Load Session::run_liquid(const Pose& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept {
+core_f64::Load Session::run_liquid(const Stance& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept {
   const LiveVessel& live = live_->vessels[vessel_];
   const auto& [lean, sine, cosine] = leaning;
   core_f64::LiquidState liquid;
@@ -266,24 +268,28 @@ core_f64::Load Session::run_liquid(const Pose& vessel, const Leaning& leaning, d
   if (pouring_.volume(vessel_) > 0) {
     density = live_->scene.liquid->density;
     const double held_back = core_f64::lip_capacity(live.vessel, live_->quadrature, sine, cosine);
-    const Vec3 lip = vessel.place + vessel.rotation * (live.vessel.mouth_radius * lean + Vec3(0, live.vessel.mouth_height, 0));
-    tick.flow = pouring_.pour(vessel_, held_back, workspace_.mirrored(lip), tick.number, seconds);
+    const Vec3 lip = vessel.outward(live.vessel.mouth_radius * lean + Vec3(0, live.vessel.mouth_height, 0));
+    tick.flow = pouring_.pour(vessel_, held_back, live_->mirror(lip), tick.number, seconds);
     liquid = core_f64::liquid_at(live.vessel, live_->quadrature, std::min(pouring_.volume(vessel_), held_back), sine, cosine);
   }
   return core_f64::load_with(live.vessel, density * pouring_.volume(vessel_), liquid.lean, liquid.height);
 }
 
+// Only with a task.
+bool Session::is_at_destination(Vec3 place) const noexcept {
+  return glm::length(place - live_->mirror.in(live_->scene.task->destination)) <= DESTINATION_RADIUS;
+}
+
 // The tutorial's vessel at its destination, once.
 void Session::note_delivery(Vec3 place) noexcept {
-  const Vec3 destination = live_->scene.task ? workspace_.mirrored(to_vec3(live_->scene.task->destination)) : Vec3(0);
-  if (vessel_ == live_->tutorial && !is_tutored_ && glm::length(place - destination) <= DESTINATION_RADIUS) {
+  if (vessel_ == live_->tutorial && !is_tutored_ && is_at_destination(place)) {
     grasp_.is_delivered = true;
     is_tutored_ = true;
     ++destinations_;
   }
 }
 
-void Session::fill_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept {
+void Session::fill_held(const Stance& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept {
   const Vec3 home = obstacles_.standing[vessel_].place;
   tick.weight = mass * live_->vessels[vessel_].force.gravity * minimum_jerk((vessel.place.y - home.y) / FULL_WEIGHT);
   tick.torque = held.torque;
@@ -299,7 +305,7 @@ void Session::fill_held(const Pose& vessel, double mass, const core_f64::HeldFor
   tick.used_mask = grasp_.used_mask;
   tick.grasp_height = grasp_.midpoint.y;
   tick.guidance_distance = grasp_.guidance_distance;
-  for (int k = 0; k < 2; ++k) tick.proxies[k] = to_triple(workspace_.mirrored(vessel.place + vessel.rotation * grasp_.proxies[k]));
+  for (int k = 0; k < 2; ++k) tick.proxies[k] = live_->mirror.out(vessel.outward(grasp_.proxies[k]));
   fill_vessel(vessel, tick);
 }
 
@@ -331,12 +337,11 @@ SessionState Session::turning(double tilt) noexcept {
 }
 
 // Put down where it stood or at its destination, or lost.
-void Session::leave(const Pose& pose) noexcept {
+void Session::leave(const Stance& pose) noexcept {
   Vec3& home = obstacles_.standing[vessel_].place;
   state_ = SessionState::let_go;
-  if (grasp_.is_delivered &&
-      glm::length(pose.place - workspace_.mirrored(to_vec3(live_->scene.task->destination))) <= DESTINATION_RADIUS) {
-    home = workspace_.mirrored(to_vec3(live_->scene.task->destination));
+  if (grasp_.is_delivered && is_at_destination(pose.place)) {
+    home = live_->mirror.in(live_->scene.task->destination);
   } else if (glm::length(pose.place - home) > PUT_DOWN) {
     ++lost_;
     state_ = SessionState::slipped;
@@ -354,7 +359,7 @@ void Session::come_back(Tick& tick) noexcept {
   left_for_ += seconds_;
   const double way = minimum_jerk(left_for_ / RETURN_TIME);
   const auto& standing = obstacles_.standing[vessel_];
-  Pose pose;
+  Stance pose;
   pose.place = glm::mix(left_at_.place, standing.place, way);
   if (way < 1) {
     const auto upright = glm::identity<glm::dquat>();
@@ -379,16 +384,16 @@ int Session::tasks_done() const noexcept {
 }
 
 void Session::fill_hand(const HandPose& pose, double closure, Tick& tick) const noexcept {
-  tick.middle = to_triple(workspace_.mirrored(pose.middle));
-  tick.hand_rotation = to_rotation(workspace_.mirrored(pose.rotation));
+  tick.middle = live_->mirror.out(pose.middle);
+  tick.hand_rotation = live_->mirror.out(pose.rotation);
   tick.gap = pose.gap;
   tick.closure = closure;
-  for (int k = 0; k < 2; ++k) tick.tips[k] = to_triple(workspace_.mirrored(tips_[k]));
+  for (int k = 0; k < 2; ++k) tick.tips[k] = live_->mirror.out(tips_[k]);
 }
 
-void Session::fill_vessel(const Pose& pose, Tick& tick) const noexcept {
-  tick.vessel_place = to_triple(workspace_.mirrored(pose.place));
-  tick.vessel_rotation = to_rotation(workspace_.mirrored(pose.rotation));
+void Session::fill_vessel(const Stance& pose, Tick& tick) const noexcept {
+  tick.vessel_place = live_->mirror.out(pose.place);
+  tick.vessel_rotation = live_->mirror.out(pose.rotation);
 }
 
 }  // namespace wholehand

@@ -14,6 +14,7 @@
 #include "device/session/live_scene.h"
 #include "device/session/pouring.h"
 #include "device/session/proxy.h"
+#include "device/session/vessel_tracker.h"
 #include "device/session/workspace.h"
 
 namespace wholehand {
@@ -27,6 +28,8 @@ class Session {
   // allocates nor throws. The state must be finite.
   void step(const GripperState& state, std::int64_t number, Tick& tick) noexcept;
 
+  // Where every vessel is since the last step, world frame.
+  const VesselPoses& poses() const noexcept { return vessels_.poses(); }
   const LiveScene& live() const noexcept { return *live_; }
   const Workspace& workspace() const noexcept { return workspace_; }
 
@@ -43,10 +46,6 @@ class Session {
     std::uint32_t touch_mask = 0, used_mask = 0;
     double guidance_distance = Tick::NONE;
     bool is_delivered = false;
-  };
-  struct Pose {
-    core_f64::Vec3 place{};
-    core_f64::Mat3 rotation{1};
   };
   // Both tips on one vessel, and its outward normals there.
   struct Touch {
@@ -65,24 +64,26 @@ class Session {
   std::optional<core_f64::Closing> close_on(const Touch& touch, const HandPose& pose) const noexcept;
   void keep_grasp(const Touch& touch, const HandPose& pose, const core_f64::GripAnswer& answer) noexcept;
   void hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept;
-  Leaning leaning_of(const Pose& vessel) const noexcept;
-  core_f64::Load run_liquid(const Pose& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept;
+  Leaning leaning_of(const Stance& vessel) const noexcept;
+  core_f64::Load run_liquid(const Stance& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept;
+  bool is_at_destination(core_f64::Vec3 place) const noexcept;
   void note_delivery(core_f64::Vec3 place) noexcept;
-  void fill_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
+  void fill_held(const Stance& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
   bool is_open(double device_gap) const noexcept;
   SessionState turning(double tilt) noexcept;
-  void leave(const Pose& pose) noexcept;
+  void leave(const Stance& pose) noexcept;
   void come_back(Tick& tick) noexcept;
   void settle_vessels() noexcept;
   bool is_left(const Obstacles::Standing& standing) const noexcept;
   int tasks_done() const noexcept;
   void fill_hand(const HandPose& pose, double closure, Tick& tick) const noexcept;
-  void fill_vessel(const Pose& pose, Tick& tick) const noexcept;
+  void fill_vessel(const Stance& pose, Tick& tick) const noexcept;
 
   std::unique_ptr<const LiveScene> live_;  // vessel poses; obstacles point into it
   Workspace workspace_;
   Pouring pouring_;
   Obstacles obstacles_;
+  VesselTracker vessels_;
   double period_;                // s
   std::array<double, 2> radii_;  // of thumb and index tip, m
   std::int64_t number_ = -1;     // of the previous tick; -1: none
@@ -96,7 +97,7 @@ class Session {
   SessionState rest_ = SessionState::lift;  // when it does not turn
   double rested_at_ = 0;                    // rad: tilt at which it last came to rest
   double turn_from_ = 0, turn_time_ = 0;    // rad, s: since when it has not changed while it turns, and for how long
-  Pose left_at_;
+  Stance left_at_;
   double left_for_ = 0;  // s
   bool is_tutored_ = false;
   int grasps_ = 0, lost_ = 0, destinations_ = 0;

@@ -42,11 +42,10 @@ double TiltsAhead::other_worst() const {
   return worst;
 }
 
-std::optional<TiltsAhead> tilts_ahead(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
-                                      const std::array<Triple, JOINT_COUNT>& posed) {
+std::optional<TiltsAhead> tilts_ahead(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed) {
   if (!live.scene.strength || tick.vessel < 0 || !is_held(tick.state)) return std::nullopt;
   const auto v = static_cast<std::size_t>(tick.vessel);
-  const HeldHand held(live, v, vessel, posed, tick.touch_mask);
+  const HeldHand held(live, tick, posed);
   const double volume = tick.volume[v];
   const Vec3 side = side_of(live, held);
   EffortSolver solver(held.contacts(), held.strength(), held.center());

@@ -35,7 +35,6 @@ struct TiltsAhead {
 };
 
 // For a tick with a held vessel; `hand` is the posture of that tick. Nothing if nothing is held or the scene has no strengths.
-std::optional<TiltsAhead> tilts_ahead(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
-                                      const std::array<Triple, JOINT_COUNT>& posed);
+std::optional<TiltsAhead> tilts_ahead(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed);
 
 }  // namespace wholehand

@@ -10,7 +10,7 @@ VesselTracker::VesselTracker(const Scene& scene) {
 }
 
 void VesselTracker::follow(const Tick& tick) noexcept {
-  if (tick.vessel >= 0 && tick.vessel < LIVE_VESSELS) poses_[tick.vessel] = {tick.vessel_place, tick.vessel_rotation};
+  if (tick.vessel >= 0 && tick.vessel < LIVE_VESSELS) poses_[tick.vessel] = vessel_pose(tick);
 }
 
 VesselHistory::VesselHistory(const Scene& scene, std::span<const Tick> ticks)
@@ -33,8 +33,7 @@ VesselPoses VesselHistory::at(std::size_t tick) const noexcept {
     const auto after = std::upper_bound(stretches_[v].begin(), stretches_[v].end(), tick,
                                         [](std::size_t moment, const Stretch& stretch) { return moment < stretch.first; });
     if (after == stretches_[v].begin()) continue;
-    const Tick& seen = ticks_[std::min(std::prev(after)->last, tick)];
-    poses[v] = {seen.vessel_place, seen.vessel_rotation};
+    poses[v] = vessel_pose(ticks_[std::min(std::prev(after)->last, tick)]);
   }
   return poses;
 }

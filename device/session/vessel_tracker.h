@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tracks every vessel of a live session. A tick has only the vessel that is touched, held or returning; the others are where they were last.
+// Where every vessel of a live session is. A tick has only the vessel that is touched, held or returning; the others are where they were last.
 #pragma once
 
 #include <array>
@@ -18,7 +18,11 @@ struct VesselPose {
 };
 using VesselPoses = std::array<VesselPose, LIVE_VESSELS>;  // in the scene's order; entries without a vessel keep their first value
 
-// Follows a session tick by tick. Skipped ticks may hide the end of a vessel's way.
+// The vessel that is touched, held or returning in a tick.
+inline VesselPose vessel_pose(const Tick& tick) noexcept { return {tick.vessel_place, tick.vessel_rotation}; }
+
+// Follows a session tick by tick: a Session keeps its own (Session::poses), and what has only its ticks needs another. Skipped ticks may hide the end
+// of a vessel's way.
 class VesselTracker {
  public:
   explicit VesselTracker(const Scene& scene);

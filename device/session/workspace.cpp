@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/text/error.h"
-#include "core/mirror.h"
 #include "core/vectors.h"
 
 namespace wholehand {
@@ -16,7 +15,7 @@ using core_f64::Vec3;
 Workspace::Workspace(const Scene& scene, std::array<double, 2> device_gap, std::array<double, 2> hand_gap)
     : origin_(to_vec3(scene.device.origin)),
       scale_(scene.device.workspace_scale),
-      handedness_(scene.hand.handedness),
+      mirror_(scene.hand.handedness),
       clutch_(scene.device.clutch_button),
       device_gap_(scene.device.has_gap ? scene.device.gap : device_gap),
       hand_gap_(hand_gap) {
@@ -33,8 +32,8 @@ Workspace::Workspace(const Scene& scene, std::array<double, 2> device_gap, std::
 HandPose Workspace::map(const GripperState& state) noexcept {
   const Mat3 turned = axes_ * to_mat3(state.rotation);
   HandPose pose;
-  pose.rotation = mirrored(turned);
-  const Vec3 place = mirrored(origin_ + scale_ * (axes_ * to_vec3(state.position)));
+  pose.rotation = mirror_(turned);
+  const Vec3 place = mirror_(origin_ + scale_ * (axes_ * to_vec3(state.position)));
   const bool pressed = clutch_ >= 0 && (state.buttons >> clutch_ & 1u) != 0;
   if (pressed && !is_clutched_) held_ = place + offset_;
   if (pressed) offset_ = held_ - place;
@@ -48,19 +47,15 @@ HandPose Workspace::map(const GripperState& state) noexcept {
 GripperState Workspace::unmap(const HandPose& pose) const noexcept {
   const Mat3 back = glm::transpose(axes_);
   GripperState state;
-  state.position = to_triple((1 / scale_) * (back * (mirrored(pose.middle) - origin_)));
-  state.rotation = to_rotation(back * mirrored(pose.rotation));
+  state.position = to_triple((1 / scale_) * (back * (mirror_(pose.middle) - origin_)));
+  state.rotation = to_rotation(back * mirror_(pose.rotation));
   state.gap = device_gap_[0] + (std::clamp(pose.gap, hand_gap_[0], hand_gap_[1]) - hand_gap_[0]) / slope_;
   return state;
 }
 
-Triple Workspace::to_device(Vec3 force) const noexcept { return to_triple(glm::transpose(axes_) * mirrored(force)); }
+Triple Workspace::to_device(Vec3 force) const noexcept { return to_triple(glm::transpose(axes_) * mirror_(force)); }
 
-Vec3 Workspace::to_world(const Triple& force) const noexcept { return mirrored(axes_ * to_vec3(force)); }
-
-Vec3 Workspace::mirrored(Vec3 v) const noexcept { return wholehand::mirrored(v, handedness_); }
-
-Mat3 Workspace::mirrored(const Mat3& rotation) const noexcept { return wholehand::mirrored(rotation, handedness_); }
+Vec3 Workspace::to_world(const Triple& force) const noexcept { return mirror_(axes_ * to_vec3(force)); }
 
 double coupling_slope(double workspace_scale, double gap_slope) { return std::max(2 * workspace_scale, gap_slope); }
 

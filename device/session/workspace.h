@@ -2,6 +2,7 @@
 // Maps a gripper's own frame to the hand in the world: [device] of a scene.
 #pragma once
 
+#include "core/mirror.h"
 #include "core/real.h"
 #include "core/scene.h"
 #include "device/session/tick.h"
@@ -30,9 +31,8 @@ class Workspace {
   // Maps a force of that world back to the device: only the axes change.
   Triple to_device(core_f64::Vec3 force) const noexcept;
   core_f64::Vec3 to_world(const Triple& force) const noexcept;
-  // Between that world and the scene's own: mirrored in x for a left hand. It is its own inverse.
-  core_f64::Vec3 mirrored(core_f64::Vec3 v) const noexcept;
-  core_f64::Mat3 mirrored(const core_f64::Mat3& rotation) const noexcept;
+  // Between that world and the scene's own.
+  const Mirror& mirror() const noexcept { return mirror_; }
 
   std::array<double, 2> device_gap() const noexcept { return device_gap_; }
   double gap_slope() const noexcept { return slope_; }  // slope of the hand's gap over the device's
@@ -41,7 +41,7 @@ class Workspace {
   core_f64::Mat3 axes_{1};  // device to world
   core_f64::Vec3 origin_{};
   double scale_ = 1;
-  Handedness handedness_ = Handedness::right;
+  Mirror mirror_;
   int clutch_ = -1;
   std::array<double, 2> device_gap_{}, hand_gap_{};
   double slope_ = 1;

@@ -175,8 +175,6 @@ double SimUser::lift() const noexcept {
   return std::max(LIFT, job().path.middle(0).y - (live_.vessels[job().vessel].home.y + job().grip.height));
 }
 
-Vec3 SimUser::in_hand_world(const Triple& place) const noexcept { return to_vec3(mirrored(place, live_.scene.hand.handedness)); }
-
 void SimUser::move(Vec3 to, double seconds) noexcept {
   from_ = command_.middle;
   to_ = to;
@@ -203,7 +201,7 @@ void SimUser::begin(Phase phase) noexcept {
 
 // Where the middle of the tips goes.
 Vec3 SimUser::set_down_at() const noexcept {
-  const Vec3 destination = live_.scene.task ? in_hand_world(live_.scene.task->destination) : Vec3(0);
+  const Vec3 destination = live_.scene.task ? live_.mirror.in(live_.scene.task->destination) : Vec3(0);
   const Vec3 place = job().kind == SimJob::Kind::carry ? destination : live_.vessels[job().vessel].home;
   return place + Vec3(0, job().grip.height + traits_[Trait::height], 0);
 }

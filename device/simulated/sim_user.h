@@ -100,7 +100,6 @@ class SimUser {
   void move(core_f64::Vec3 to, double seconds) noexcept;
   double lift() const noexcept;
   core_f64::Vec3 set_down_at() const noexcept;
-  core_f64::Vec3 in_hand_world(const Triple& place) const noexcept;
   void pour(const SimSense& sense, double seconds) noexcept;
   const SimJob& job() const noexcept { return jobs_[job_]; }
 

@@ -26,16 +26,15 @@ constexpr std::array<double AdvisedOutcome::*, 5> OUTCOME_NUMBERS{
 
 AdvisedOutcome play(const Scene& scene, const Participant& person, std::uint64_t tremor, const std::vector<SimJob>& jobs,
                     SteppedAdvice* advice, const std::atomic<bool>& stop) {
-  const LiveScene live(scene);
-  EffortWatch efforts(live);
+  EffortWatch efforts(scene.live.rate);
   Tick last;
   SimulatedSession asked{scene, person, tremor, jobs};
   asked.shown = advice;
   const bool is_whole = run_simulated(
       asked,
-      [&](const Tick& tick) {
-        if (advice) advice->look(tick);
-        efforts.take(tick);
+      [&](const Tick& tick, const Session& session) {
+        if (advice) advice->look(tick, session.poses());
+        efforts.take(tick, session);
         last = tick;
         return true;
       },
@@ -48,17 +47,14 @@ AdvisedOutcome play(const Scene& scene, const Participant& person, std::uint64_t
 
 double AdvisedOutcome::lost_share() const { return grasps > 0 ? lost / grasps : NO_OUTCOME; }
 
-EffortWatch::EffortWatch(const LiveScene& live)
-    : live_(live), tracker_(live.scene), period_(std::max<std::int64_t>(1, std::llround(live.scene.live.rate / EFFORT_LOOKS))) {}
+EffortWatch::EffortWatch(double rate) : period_(std::max<std::int64_t>(1, std::llround(rate / EFFORT_LOOKS))) {}
 
-void EffortWatch::take(const Tick& tick) {
-  tracker_.follow(tick);
+void EffortWatch::take(const Tick& tick, const Session& session) {
   if (!is_held(tick.state)) return;
   if (tick.grasps > grasps_) largest_.push_back(0);
   grasps_ = tick.grasps;
   if (tick.number % period_ != 0) return;
-  const VesselPoses& poses = tracker_.poses();
-  const HandView hand = hand_view(live_, tick, poses);
+  const HandView hand = hand_view(session.live(), tick, session.poses());
   if (hand.hold) largest_.back() = std::max(largest_.back(), std::min(LARGEST_COUNTED_EFFORT, hand.hold->effort));
 }
 

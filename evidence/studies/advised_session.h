@@ -10,7 +10,6 @@
 #include "core/scene.h"
 #include "device/advice/advice_loop.h"
 #include "device/session/session.h"
-#include "device/session/vessel_tracker.h"
 
 namespace wholehand {
 
@@ -36,15 +35,12 @@ struct AdvisedPerson {
 // Follows the ticks of a session.
 class EffortWatch {
  public:
-  // `live` must outlive it.
-  explicit EffortWatch(const LiveScene& live);
-  void take(const Tick& tick);
+  explicit EffortWatch(double rate);  // of the session, Hz
+  void take(const Tick& tick, const Session& session);
   // Mean over the grasps of the largest effort of each, at most LARGEST_COUNTED_EFFORT; NaN: no grasp.
   double mean() const;
 
  private:
-  const LiveScene& live_;
-  VesselTracker tracker_;
   std::int64_t period_;  // ticks between two looks
   int grasps_ = 0;       // counted by the last tick
   std::vector<double> largest_;

@@ -97,7 +97,7 @@ ForceOutcome try_forces(Scene scene, const std::vector<SimJob>& jobs, const Part
   ForceWatch watch(scene.live.rate);
   if (jobs.empty()) return watch.outcome();
   run_simulated(
-      {scene, person, seed, jobs}, [&watch](const Tick& tick) { return watch.take(tick); }, stop);
+      {scene, person, seed, jobs}, [&watch](const Tick& tick, const Session&) { return watch.take(tick); }, stop);
   return watch.outcome();
 }
 

@@ -36,7 +36,7 @@ PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::u
     GraspCollector collector(own.live.rate, own.force.max);
     const bool is_whole = run_simulated(
         {own, participant, tremor_seed(scene, seed, person, session), jobs},
-        [&collector](const Tick& tick) {
+        [&collector](const Tick& tick, const Session&) {
           collector.add(tick);
           return true;
         },

@@ -7,12 +7,11 @@
 #include "base/numbers/random_bits.h"
 #include "base/text/error.h"
 #include "device/loop/haptic_loop.h"
-#include "device/session/session.h"
 #include "device/simulated/sim_gripper.h"
 
 namespace wholehand {
 
-bool run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop) {
+bool run_simulated(const SimulatedSession& asked, const TickTaker& take, const std::atomic<bool>& stop) {
   if (asked.jobs.empty()) return true;
   const auto gripper = open_sim(asked.scene, asked.seed, asked.person, asked.jobs, asked.shown);
   Session session(asked.scene, gripper->limits().gap);
@@ -25,7 +24,7 @@ bool run_simulated(const SimulatedSession& asked, const std::function<bool(const
   const auto sink = [&](const Tick& tick) {
     if (is_enough) return false;
     try {
-      is_enough = !take(tick);
+      is_enough = !take(tick, session);
     } catch (...) {
       error = std::current_exception();
       is_enough = true;

@@ -9,7 +9,7 @@
 
 #include "core/people/participant.h"
 #include "core/scene.h"
-#include "device/session/tick.h"
+#include "device/session/session.h"
 #include "device/simulated/sim_user.h"
 
 namespace wholehand {
@@ -26,9 +26,12 @@ struct SimulatedSession {
   ShownGripSource* shown = nullptr;  // grips that the person is shown and takes; null: none
 };
 
-// Runs it with the gripper, limits, loop and session of `wholehand live`. `take` gets each tick; false ends the session, and so does `stop`. Returns
+// Takes each tick, just made by the session; false ends it.
+using TickTaker = std::function<bool(const Tick&, const Session&)>;
+
+// Runs it with the gripper, limits, loop and session of `wholehand live`, until `take` or `stop` ends it. Returns
 // false if the session did not end by itself, but by a fault, such as a jump of the hand, or because it took too long. Rethrows what `take` throws.
-bool run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop);
+bool run_simulated(const SimulatedSession& asked, const TickTaker& take, const std::atomic<bool>& stop);
 
 // The seed of the tremor in session `k` of a person. Without scatter everybody is one person, with the same tremor.
 std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t person, std::uint64_t k);

@@ -80,19 +80,14 @@ class OscListener {
 // A session by script, and the moment of each tick that is asked for.
 class PlayedSession {
  public:
-  explicit PlayedSession(const Scene& scene) : session(scene, own_gap(scene.hand)), tracker_(scene) {
-    script_.vessel = scene.vessels[0].place;
-  }
+  explicit PlayedSession(const Scene& scene) : session(scene, own_gap(scene.hand)) { script_.vessel = scene.vessels[0].place; }
   DisplayMoment at(std::int64_t number) {
-    for (; next_ <= number; ++next_) {
-      session.step(script_.at(next_), next_, tick);
-      tracker_.follow(tick);
-    }
+    for (; next_ <= number; ++next_) session.step(script_.at(next_), next_, tick);
     return moment();
   }
   DisplayMoment moment() {
-    hand = hand_view(session.live(), tick, tracker_.poses());
-    return {tick, tracker_.poses(), hand, timing_};
+    hand = hand_view(session.live(), tick, session.poses());
+    return {tick, session.poses(), hand, timing_};
   }
   std::int64_t ticks() const { return static_cast<std::int64_t>(script_.seconds() * script_.rate); }
   Session session;
@@ -101,8 +96,7 @@ class PlayedSession {
 
  private:
   LiveScript script_;
-  VesselTracker tracker_;
-  ViewFrame::Timing timing_;
+  DisplayTiming timing_;
   std::int64_t next_ = 0;
 };
 

@@ -10,7 +10,6 @@
 #include "app/c/wholehand/wholehand.h"
 #include "device/session/hand_view.h"
 #include "device/session/session.h"
-#include "device/session/vessel_tracker.h"
 #include "device/session/workspace.h"
 #include "sweeps/grips/hand_nodes.h"
 #include "tests/app/c/expect_same.h"
@@ -81,7 +80,6 @@ TEST(LibrarySession, StepsAsTheProgramDoes) {
     wh_session* session = nullptr;
     ASSERT_EQ(wh_session_open(&handle, gap[0], gap[1], &session), WH_OK) << wh_message();
     Session truth(scene, gap);
-    VesselTracker tracker(truth.live().scene);
     const LiveScript script = script_for(scene);
     Tick tick;
     wh_session_output out;
@@ -97,18 +95,17 @@ TEST(LibrarySession, StepsAsTheProgramDoes) {
       const wh_measurement in = measured(state, n);
       ASSERT_EQ(wh_session_step(session, &in, &out), WH_OK) << wh_message();
       truth.step(state, n, tick);
-      tracker.follow(tick);
       held += is_held(tick.state);
       expect_same(out, tick);
       ASSERT_EQ(wh_session_vessel_at(session, 0, &vessel), WH_OK);
-      expect_same(vessel.place, tracker.poses()[0].place, "place");
-      expect_same(vessel.rotation, tracker.poses()[0].rotation, "rotation");
+      expect_same(vessel.place, truth.poses()[0].place, "place");
+      expect_same(vessel.rotation, truth.poses()[0].rotation, "rotation");
       expect_same(vessel.volume, tick.volume[0], "volume");
       expect_same(vessel.arrived, tick.arrived[0], "arrived");
       expect_same(vessel.spilt, tick.spilt[0], "spilt");
       if (n % 20 == 0) {
         ASSERT_EQ(wh_session_hand(session, &hand), WH_OK);
-        const HandView view = hand_view(truth.live(), tick, tracker.poses());
+        const HandView view = hand_view(truth.live(), tick, truth.poses());
         expect_same(hand, view, hand_nodes(truth.live().scene.hand, truth.live().hand, view.wrist, view.rotation, view.proxies));
       }
       ASSERT_FALSE(HasFailure()) << "at tick " << n;

@@ -137,7 +137,7 @@ TEST(LiveView, WhatIsShownIsWhatWasRecorded) {
     ASSERT_GT(k, 0u);
     const Tick& tick = recording.ticks[k - 1];
     ASSERT_EQ(tick.number, seen["tick"]);
-    const ViewFrame::Timing timing{seen["timing"]["rate"], seen["timing"]["step"], seen["timing"]["missed"]};
+    const DisplayTiming timing{seen["timing"]["rate"], seen["timing"]["step"], seen["timing"]["missed"]};
     const json truth = parse_json(frame_json(maker.make(tick, tracker.poses(), hand_view(scene, tick, tracker.poses()), timing)));
     EXPECT_EQ(seen, truth) << tick.number;
     ++compared;

@@ -2,8 +2,6 @@
 // wholehand live --advise as it is typed: what it says, that it changes nothing of the session, that a user who follows it
 // repeats, and how it ends.
 // sanitizers: none (it runs the program)
-#include "app/commands/live_advice.h"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -109,34 +107,6 @@ TEST_F(LiveAdvised, RefusesWhatDoesNotGoTogether) {
              "[scene]\nname = \"weak\"\n[[vessel]]\nname = \"cup\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = "
              "110\nwall_mm = 2\n[strength]\nefforts = false\n");
   expect_error("live " + weak + " --advise --advise-on core", 2, "leave efforts = false out");
-}
-
-// ---- the parts ----
-
-TEST(AdviceNarrator, TellsOfEachBeginningOnce) {
-  const Scene scene = advised_session_scene();
-  AdviceNarrator narrator(scene);
-  Advice advice;
-  EXPECT_FALSE(narrator.narrate(advice));
-  advice.vessel = 0;
-  advice.tick = 1500;
-  const auto first = narrator.narrate(advice);
-  ASSERT_TRUE(first);
-  EXPECT_EQ(*first, "    1.50 s  advice, " + scene.vessels[0].name + ": no grip within reach is possible");
-  EXPECT_FALSE(narrator.narrate(advice));
-  advice.is_held = true;
-  EXPECT_FALSE(narrator.narrate(advice)) << "a held grip that is not rated has no words";
-  advice.present.is_possible = true;
-  EXPECT_TRUE(narrator.narrate(advice));
-  EXPECT_FALSE(narrator.narrate(advice));
-  advice.vessel = -1;
-  EXPECT_FALSE(narrator.narrate(advice));
-}
-
-TEST(TallyWords, SayTheRate) {
-  EXPECT_EQ(tally_words({"core, 2 threads", 0, 0, 0, 0, 0}), "computed on core, 2 threads: 0 updates");
-  EXPECT_EQ(tally_words({"core, 2 threads", 20, 20480, 0.15, 2, 19}),
-            "computed on core, 2 threads: 20 updates of 1,024 grips on average, 9.5 a second, no two further apart than 0.15 s");
 }
 
 }  // namespace

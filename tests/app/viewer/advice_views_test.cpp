@@ -24,9 +24,7 @@ struct Advised {
     script.height = 0.09;
     const std::vector<Tick> record = play_session(scene, script);
     tick = record[last_free_tick(record)];
-    VesselTracker tracker(scene);
-    tracker.follow(tick);
-    poses = tracker.poses();
+    poses = VesselTracker(scene).poses();
     poses[0].place = {0.3, 0.02, -0.1};  // off the origin, and turned: a forgotten pose shows
     poses[0].rotation = turned('y', 0.4);
     Adviser adviser(scene, "core", 1);
@@ -80,7 +78,7 @@ TEST(OscStream, SendsTheAdvice) {
   OscListener listener;
   OscStream stream(listener.target(), one.live);
   const HandView hand = hand_view(one.live, one.tick, one.poses);
-  const ViewFrame::Timing timing;
+  const DisplayTiming timing;
   const auto sent = [&](const Advice* advice) {
     stream.show({one.tick, one.poses, hand, timing, advice});
     std::map<std::string, OscMessage> found;

@@ -55,14 +55,12 @@ std::vector<Moment> moments(const Scene& scene) {
   LiveScript script;
   script.vessel = scene.vessels[0].place;
   Session session(scene, own_gap(scene.hand));
-  VesselTracker tracker(scene);
   std::vector<Moment> seen;
   for (std::int64_t n = 0; n < static_cast<std::int64_t>(script.seconds() * script.rate); ++n) {
     Tick tick;
     session.step(script.at(n), n, tick);
     tick.written.grip = 0.5 * tick.wanted.grip;
-    tracker.follow(tick);
-    if (n % 50 == 0) seen.push_back({tick, tracker.poses()});
+    if (n % 50 == 0) seen.push_back({tick, session.poses()});
   }
   return seen;
 }

@@ -16,6 +16,11 @@
 namespace wholehand {
 namespace {
 
+// One tick of a played session, as a session gives it.
+void look(AdviceLoop& loop, const Scene& scene, const std::vector<Tick>& record, std::size_t at) {
+  loop.look(record[at], VesselHistory(scene, record).at(at));
+}
+
 constexpr auto PATIENCE = std::chrono::seconds(60);
 
 // Whether `is_true` becomes so.
@@ -35,14 +40,14 @@ TEST(AdviceLoop, FollowsTheNewestTick) {
   const double no_end = 1e9;  // s: however slow the machine is, nothing is late
   AdviceLoop loop(
       scene, [](const Scene& own) { return std::make_unique<Adviser>(own, "core", 1); }, false, no_end);
-  EXPECT_EQ(loop.place(), "core, 1 thread");
+  EXPECT_EQ(loop.tally().place, "core, 1 thread");
   EXPECT_FALSE(loop.newest());
   const std::size_t at = last_free_tick(record);
-  loop.look(std::span(record).first(at + 1));
+  look(loop, scene, record, at);
   ASSERT_TRUE(comes([&] { return loop.newest() && loop.newest()->tick == record[at].number; }));
   EXPECT_FALSE(loop.newest()->is_held);
   EXPECT_EQ(loop.newest()->vessel, 0);
-  loop.look(std::span(record).subspan(at + 1, 1));
+  look(loop, scene, record, at + 1);
   ASSERT_TRUE(comes([&] { return loop.newest()->is_held; }));
   EXPECT_TRUE(loop.newest()->ahead);
   const AdviceTally tally = loop.tally();
@@ -62,9 +67,9 @@ TEST(AdviceLoop, EndsWithALineWhereItsDeviceFails) {
   const std::vector<Tick> record = play_session(scene, script_for(scene));
   AdviceLoop loop(scene, dying_adviser(1), true);
   const std::size_t at = last_free_tick(record);
-  loop.look(std::span(record).first(at + 1));
+  look(loop, scene, record, at);
   ASSERT_TRUE(comes([&] { return loop.newest() != nullptr; }));
-  loop.look(std::span(record).subspan(at, 1));
+  look(loop, scene, record, at);
   std::vector<std::string> warnings;
   ASSERT_TRUE(comes([&] { return !(warnings = loop.take_warnings()).empty(); }));
   EXPECT_EQ(warnings, std::vector<std::string>{"advice: the device is gone; the session goes on without advice"});
@@ -73,7 +78,7 @@ TEST(AdviceLoop, EndsWithALineWhereItsDeviceFails) {
   shown.vessel = 0;
   ASSERT_TRUE(loop.shown().take(0, shown));
   EXPECT_EQ(shown.vessel, -1) << "nor is it followed";
-  loop.look(std::span(record).subspan(at, 1));  // goes nowhere
+  look(loop, scene, record, at);  // goes nowhere
 }
 
 // Where a device that hangs is held.
@@ -135,7 +140,7 @@ TEST(AdviceLoop, LeavesADeviceThatHangs) {
   const auto gate = std::make_shared<Gate>();
   {
     AdviceLoop loop(scene, hanging(gate, 0));
-    loop.look(std::span(record).first(last_free_tick(record) + 1));
+    look(loop, scene, record, last_free_tick(record));
     ASSERT_TRUE(gate->wait_until_in());
   }              // this ends
   gate->open();  // so that the thread ends before the test's program does
@@ -149,9 +154,9 @@ TEST(AdviceLoop, SaysWhereItsDeviceHangsAndGoesOnAfterwards) {
   const double patience = 0.05;  // s
   AdviceLoop loop(scene, hanging(gate, 1), false, patience);
   const std::size_t at = last_free_tick(record);
-  loop.look(std::span(record).first(at));
+  look(loop, scene, record, at - 1);
   ASSERT_TRUE(comes([&] { return loop.newest() != nullptr; }));
-  loop.look(std::span(record).subspan(at, 1));
+  look(loop, scene, record, at);
   ASSERT_TRUE(gate->wait_until_in());
   EXPECT_TRUE(comes([&] { return !loop.newest(); }));
   EXPECT_EQ(loop.take_warnings(),

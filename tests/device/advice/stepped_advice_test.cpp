@@ -19,8 +19,10 @@ std::vector<std::pair<std::int64_t, ShownGrip>> shown_in(const Scene& scene, con
   SteppedAdvice advice(scene, "core", options);
   std::vector<std::pair<std::int64_t, ShownGrip>> shown;
   ShownGrip grip;
+  VesselTracker vessels(scene);
   for (const Tick& tick : record) {
-    advice.look(tick);
+    vessels.follow(tick);
+    advice.look(tick, vessels.poses());
     if (advice.take(tick.number, grip)) shown.emplace_back(tick.number, grip);
   }
   return shown;
@@ -54,8 +56,10 @@ TEST(SteppedAdvice, TakesItsTime) {
   options.threads = 1;
   options.grips = LEAST_CLOUD;
   SteppedAdvice advice(scene, "core", options);
+  VesselTracker vessels(scene);
   for (const Tick& tick : record) {
-    advice.look(tick);
+    vessels.follow(tick);
+    advice.look(tick, vessels.poses());
     if (tick.number < 200) {
       EXPECT_FALSE(advice.newest());
     } else {
@@ -75,8 +79,10 @@ TEST(SteppedAdvice, AsksNothingWhileHeldWhereNobodyFollows) {
   options.grips = LEAST_CLOUD;
   SteppedAdvice advice(scene, "core", options);
   int near = 0, held = 0;  // ticks
+  VesselTracker vessels(scene);
   for (const Tick& tick : record) {
-    advice.look(tick);
+    vessels.follow(tick);
+    advice.look(tick, vessels.poses());
     if (tick.number < 200) continue;
     ASSERT_TRUE(advice.newest()) << tick.number;
     EXPECT_FALSE(advice.newest()->is_held);
@@ -100,8 +106,10 @@ TEST(SteppedAdvice, IsEndedByADeviceThatFails) {
   SteppedAdvice advice(scene, dying_adviser(5), options);
   ShownGrip grip;
   bool was_advised = false, is_ended = false;
+  VesselTracker vessels(scene);
   for (const Tick& tick : record) {
-    advice.look(tick);
+    vessels.follow(tick);
+    advice.look(tick, vessels.poses());
     const bool is_new = advice.take(tick.number, grip);
     was_advised = was_advised || advice.newest();
     if (is_ended) {

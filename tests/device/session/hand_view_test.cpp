@@ -156,15 +156,13 @@ struct Seen {
 };
 Seen watch(const Scene& scene, const std::function<GripperState(std::int64_t)>& at, std::int64_t ticks) {
   Session session(scene, own_gap(scene.hand));
-  VesselTracker tracker(scene);
   Seen seen;
   for (std::int64_t n = 0; n < ticks; ++n) {
     Tick tick;
     session.step(at(n), n, tick);
-    tracker.follow(tick);
     seen.ticks.push_back(tick);
-    seen.poses.push_back(tracker.poses());
-    seen.views.push_back(hand_view(session.live(), tick, tracker.poses()));
+    seen.poses.push_back(session.poses());
+    seen.views.push_back(hand_view(session.live(), tick, session.poses()));
   }
   return seen;
 }

@@ -46,7 +46,7 @@ TEST(TiltsAhead, AreWhatTheHandThenNeeds) {
     const std::size_t first = tick_from(record, radians(from));
     ASSERT_LT(first, record.size());
     const VesselPoses poses = history.at(first);
-    const auto ahead = tilts_ahead(live, record[first], poses[0], posture(live, record[first], poses));
+    const auto ahead = tilts_ahead(live, record[first], posture(live, record[first], poses));
     ASSERT_TRUE(ahead);
     const auto passed = static_cast<std::size_t>(std::ceil(from / 10));  // tilts that lie behind
     ASSERT_EQ(ahead->count, TILTS_AHEAD - passed);
@@ -54,7 +54,7 @@ TEST(TiltsAhead, AreWhatTheHandThenNeeds) {
       const std::size_t there = tick_from(record, radians(tilt));
       ASSERT_LT(there, record.size());
       const VesselPoses then = history.at(there);
-      const auto hold = hand_hold(live, record[there], then[0], posture(live, record[there], then));
+      const auto hold = hand_hold(live, record[there], posture(live, record[there], then));
       ASSERT_TRUE(hold);
       const TiltAhead& said = ahead->tilts[static_cast<std::size_t>(tilt / 10) - passed];
       EXPECT_NEAR(degrees(said.tilt), tilt, 1e-9);
@@ -74,7 +74,7 @@ TEST(TiltsAhead, BeginAtThePresentTiltAndEndWhereItIsOut) {
   const std::size_t at = tick_from(record, radians(33));
   ASSERT_LT(at, record.size());
   const VesselPoses poses = history.at(at);
-  const auto ahead = tilts_ahead(live, record[at], poses[0], posture(live, record[at], poses));
+  const auto ahead = tilts_ahead(live, record[at], posture(live, record[at], poses));
   ASSERT_TRUE(ahead);
   ASSERT_GT(ahead->count, 2u);
   EXPECT_NEAR(degrees(ahead->tilts[0].tilt), 40, 1e-9);
@@ -92,8 +92,8 @@ TEST(TiltsAhead, AreOfHeldVesselsAndScenesWithStrength) {
   const std::size_t at = tick_from(record, 0);
   const VesselPoses poses = VesselHistory(scene, record).at(at);
   const LiveScene live(scene), weak(live_scene());
-  EXPECT_FALSE(tilts_ahead(live, record[0], poses[0], {}));
-  EXPECT_FALSE(tilts_ahead(weak, record[at], poses[0], posture(weak, record[at], poses)));
+  EXPECT_FALSE(tilts_ahead(live, record[0], {}));
+  EXPECT_FALSE(tilts_ahead(weak, record[at], posture(weak, record[at], poses)));
 }
 
 }  // namespace

@@ -195,8 +195,8 @@ TEST(Workspace, ALeftHandIsTheRightHandOfTheMirroredWorld) {
     EXPECT_LT(glm::length(of_left.middle - of_right.middle), CORNER_ROUNDING);
     EXPECT_LT(difference(of_left.rotation, of_right.rotation), CORNER_ROUNDING);
     EXPECT_LT(glm::length(to_vec3(a.to_device(p)) - mirror * to_vec3(b.to_device(p))), CORNER_ROUNDING);
-    EXPECT_EQ(a.mirrored(a.mirrored(p)), p);
-    EXPECT_LT(difference(a.mirrored(a.mirrored(m)), m), CORNER_ROUNDING);
+    EXPECT_EQ(a.mirror()(a.mirror()(p)), p);
+    EXPECT_LT(difference(a.mirror()(a.mirror()(m)), m), CORNER_ROUNDING);
   }
 }
 

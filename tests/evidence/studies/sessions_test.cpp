@@ -52,7 +52,7 @@ TEST(Sessions, AreMeasuredAsRecordingsAre) {
   GraspCollector collector(scene.live.rate, scene.force.max);
   run_simulated(
       {scene, person, tremor_seed(scene, 1, 5, 0), jobs_of(scene)},
-      [&](const Tick& tick) {
+      [&](const Tick& tick, const Session&) {
         recording.ticks.push_back(tick);
         collector.add(tick);
         return true;
@@ -126,7 +126,7 @@ TEST(Sessions, PeopleAtTheEndsOfTheirRangesComeToAnEnd) {
       double last = 0;
       run_simulated(
           {scene, person, 1, jobs_of(scene)},
-          [&](const Tick& tick) {
+          [&](const Tick& tick, const Session&) {
             EXPECT_TRUE(std::isfinite(tick.device.gap + tick.device.position[0] + tick.device.position[1] +
                                       tick.device.position[2] + tick.written.grip))
                 << fact.key << ' ' << value << ' ' << tick.number;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/commands/live_board.h"
+#include "device/run/board.h"
 
 #include <utility>
 
@@ -22,10 +22,15 @@ void Board::look(std::span<const Tick> ticks) {
   count_ += static_cast<std::int64_t>(ticks.size());
 }
 
-void Board::advise(std::vector<std::string> lines, const Advice* advice) {
+void Board::advise(const std::shared_ptr<const Advice>& advice) {
+  if (advice == newest_) return;
+  newest_ = advice;
   std::string words = advice ? advice_words(*advice) : "";
+  std::optional<std::string> line;
+  if (advice && advice != narrated_) line = advice_narrator_.narrate(*advice);
+  if (advice) narrated_ = advice;
   const std::lock_guard lock(mutex_);
-  for (std::string& line : lines) lines_.push_back(std::move(line));
+  if (line) lines_.push_back(std::move(*line));
   advice_ = std::move(words);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a session shows at display rate: the newest tick, each once, the last one always.
 // sanitizers: thread
-#include "app/viewer/display_loop.h"
+#include "device/run/display_loop.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class Keeper final : public Display {
   std::atomic<int> count{0};
   std::vector<std::int64_t> numbers;
   std::vector<SessionState> states;
-  std::vector<ViewFrame::Timing> timings;
+  std::vector<DisplayTiming> timings;
   std::vector<Triple> places, tips;
   std::vector<std::optional<int>> advised;  // vessel; nothing: nobody was asked
 };
@@ -58,11 +58,11 @@ TEST(DisplayLoop, ShowsTheNewestAndNothingTwice) {
   Keeper keeper;
   DisplayLoop loop(live, {&keeper});
   const std::vector<Tick> first{tick_of(0), tick_of(1), tick_of(2)};
-  loop.look(first);
+  loop.look(first, {});
   wait_for(keeper, 1);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));  // nothing new in some periods
   const std::vector<Tick> second{tick_of(3)};
-  loop.look(second);
+  loop.look(second, {});
   loop.stop();
   EXPECT_EQ(keeper.numbers, (std::vector<std::int64_t>{2, 3}));
   EXPECT_EQ(keeper.tips[0], (Triple{-0.04, 1, 0}));
@@ -73,10 +73,10 @@ TEST(DisplayLoop, TheLastTickIsAlwaysShown) {
   for (int round = 0; round < 20; ++round) {
     Keeper keeper;
     DisplayLoop loop(live, {&keeper});
-    for (int k = 0; k < 50; ++k) loop.look(std::vector<Tick>{tick_of(k)});
+    for (int k = 0; k < 50; ++k) loop.look(std::vector<Tick>{tick_of(k)}, {});
     Tick last = tick_of(50);
     last.state = SessionState::released;
-    loop.look(std::vector<Tick>{last});
+    loop.look(std::vector<Tick>{last}, {});
     loop.stop();
     ASSERT_FALSE(keeper.numbers.empty());
     EXPECT_EQ(keeper.numbers.back(), 50);
@@ -84,18 +84,16 @@ TEST(DisplayLoop, TheLastTickIsAlwaysShown) {
   }
 }
 
-// A vessel's last place comes with a tick that is never shown.
-TEST(DisplayLoop, FollowsVesselsThroughTicksThatAreNotShown) {
+TEST(DisplayLoop, ShowsVesselsWhereTheyAre) {
   const LiveScene live(live_scene());
   Keeper keeper;
   DisplayLoop loop(live, {&keeper});
-  std::vector<Tick> ticks{tick_of(0), tick_of(1), tick_of(2)};
-  ticks[1].vessel = 1;
-  ticks[1].vessel_place = {0.5, 0.1, 0.2};
-  loop.look(ticks);
+  VesselPoses poses;
+  poses[1].place = {0.5, 0.1, 0.2};
+  loop.look(std::vector<Tick>{tick_of(0)}, poses);
   loop.stop();
   ASSERT_EQ(keeper.places.size(), 1u);
-  EXPECT_EQ(keeper.places[0], (Triple{0.5, 0.1, 0.2}));
+  EXPECT_EQ(keeper.places[0], poses[1].place);
 }
 
 TEST(DisplayLoop, TellsMissedPeriodsAndTheLongestStepSinceTheMomentBefore) {
@@ -105,11 +103,11 @@ TEST(DisplayLoop, TellsMissedPeriodsAndTheLongestStepSinceTheMomentBefore) {
   std::vector<Tick> ticks{tick_of(5), tick_of(6), tick_of(9), tick_of(10)};
   ticks[1].step_time = 30e-6;
   ticks[3].step_time = 10e-6;
-  loop.look(ticks);
+  loop.look(ticks, {});
   wait_for(keeper, 1);
   std::vector<Tick> more{tick_of(11)};
   more[0].step_time = 5e-6;
-  loop.look(more);
+  loop.look(more, {});
   loop.stop();
   ASSERT_EQ(keeper.timings.size(), 2u);
   EXPECT_EQ(keeper.timings[0].step, 30e-6);
@@ -126,7 +124,7 @@ TEST(DisplayLoop, TellsWhereThereIsNoAdvice) {
   const auto advised = [&](const AdviceSource& source) {
     Keeper keeper;
     DisplayLoop loop(live, {&keeper}, source);
-    loop.look(std::vector<Tick>{tick_of(0)});
+    loop.look(std::vector<Tick>{tick_of(0)}, {});
     loop.stop();
     return keeper.advised;
   };
@@ -141,11 +139,11 @@ TEST(DisplayLoop, TheRateIsThatOfTicksThatCame) {
   const LiveScene live(live_scene());
   Keeper keeper;
   DisplayLoop loop(live, {&keeper});
-  loop.look(std::vector<Tick>{tick_of(0)});
+  loop.look(std::vector<Tick>{tick_of(0)}, {});
   wait_for(keeper, 1);
   std::vector<Tick> every_other;
   for (int k = 1; k <= 100; ++k) every_other.push_back(tick_of(2 * k));
-  loop.look(every_other);
+  loop.look(every_other, {});
   loop.stop();
   ASSERT_EQ(keeper.timings.size(), 2u);
   EXPECT_DOUBLE_EQ(keeper.timings[1].rate, 0.5 * live.scene.live.rate);
@@ -156,7 +154,7 @@ TEST(DisplayLoop, PosesNoHandForNobody) {
   Keeper keeper;
   keeper.watched = false;
   DisplayLoop loop(live, {&keeper});
-  loop.look(std::vector<Tick>{tick_of(0)});
+  loop.look(std::vector<Tick>{tick_of(0)}, {});
   loop.stop();
   EXPECT_EQ(keeper.count, 0);
   loop.stop();  // once more does nothing

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/scene.h"
-#include "device/advice/advice_loop.h"
+#include "device/advice/live_advice.h"
 #include "device/loop/haptic_loop.h"
 #include "device/session/amounts.h"
 #include "device/session/tick.h"
@@ -32,6 +32,20 @@ class Narrator {
   Tick last_;
 };
 
+// Prints a line for each new situation (the hand comes near a vessel, a grasp), once its advice exists.
+class AdviceNarrator {
+ public:
+  explicit AdviceNarrator(const Scene& scene) : rate_(scene.live.rate), scene_(scene) {}
+  // Nothing: the same vessel, still free or still held, or nothing to advise.
+  std::optional<std::string> narrate(const Advice& advice);
+
+ private:
+  double rate_;
+  const Scene& scene_;
+  int vessel_ = -1;
+  bool is_held_ = false;
+};
+
 // The report at the end, as text or as JSON (times in s). `notes`: lines about missing permissions.
 struct LiveSummary {
   const Scene& scene;
@@ -47,6 +61,9 @@ struct LiveSummary {
 };
 std::string live_text(const LiveSummary& summary);
 std::string live_json(const LiveSummary& summary);
+
+// "computed on vulkan, llvmpipe (..): 312 updates of 1,024 grips on average, 9.8 a second, no two further apart than 0.15 s".
+std::string tally_words(const AdviceTally& tally);
 
 // "live: a fault ended the session after 2.004 s: read error (unplugged); zero force was written": the line for a session that a fault ended, with
 // the finding, the limit, and the force's fate. Also for a session without a fault that left a force on the device.

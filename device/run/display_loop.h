@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "app/viewer/frame.h"
 #include "device/advice/advice.h"
 #include "device/session/hand_view.h"
 
@@ -20,12 +19,18 @@ namespace wholehand {
 
 constexpr double DISPLAY_RATE = 60;  // Hz
 
+struct DisplayTiming {
+  double rate = 0;  // Hz, of the loop; NaN: it has no clock
+  double step = 0;  // s; likewise
+  std::int64_t missed = 0;
+};
+
 // A moment of the session. References hold during the call.
 struct DisplayMoment {
   const Tick& tick;
   const VesselPoses& poses;
   const HandView& hand;
-  const ViewFrame::Timing& timing;
+  const DisplayTiming& timing;
   const Advice* advice = nullptr;  // null: advice is off; vessel -1: there is none now
 };
 
@@ -40,6 +45,8 @@ class Display {
   virtual bool is_watched() { return true; }
   // Must not wait for long, nor throw.
   virtual void show(const DisplayMoment& moment) noexcept = 0;
+  // The session is over; from another thread, after the last moment.
+  virtual void end(const std::string& /*reason*/) {}
 };
 
 // Shows the newest tick on every display, at most DISPLAY_RATE times a second; poll at that rate. It skips ticks in between, repeats none, and always
@@ -53,8 +60,8 @@ class DisplayLoop {
   DisplayLoop(const DisplayLoop&) = delete;
   DisplayLoop& operator=(const DisplayLoop&) = delete;
 
-  // Takes all ticks in order, from one thread. Only copies; never waits.
-  void look(std::span<const Tick> ticks);
+  // Takes all ticks in order, from one thread, with the vessels at `poses` in the last one. Only copies; never waits.
+  void look(std::span<const Tick> ticks, const VesselPoses& poses);
   // Shows the last tick, and ends. Call it once; nothing is shown afterwards.
   void stop();
 
@@ -76,9 +83,9 @@ class DisplayLoop {
   bool is_due_ = false;  // and is to be
   Clock::time_point due_;
   Tick newest_;
-  VesselTracker tracker_;
+  VesselPoses poses_;
   std::int64_t ticks_ = 0;
-  ViewFrame::Timing timing_;
+  DisplayTiming timing_;
 
   // Only for the loop's own thread: tick counts of the last second, for the rate.
   struct Count {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/viewer/display_loop.h"
+#include "device/run/display_loop.h"
 
 #include <algorithm>
 
@@ -13,25 +13,25 @@ constexpr std::chrono::microseconds PERIOD{static_cast<std::int64_t>(1e6 / DISPL
 }  // namespace
 
 DisplayLoop::DisplayLoop(const LiveScene& live, std::vector<Display*> displays, AdviceSource advice)
-    : live_(live), displays_(std::move(displays)), advice_(std::move(advice)), tracker_(live.scene) {
+    : live_(live), displays_(std::move(displays)), advice_(std::move(advice)) {
   const BlockSignals inherited;
   thread_ = std::thread([this] { run(); });
 }
 
 DisplayLoop::~DisplayLoop() { stop(); }
 
-void DisplayLoop::look(std::span<const Tick> ticks) {
+void DisplayLoop::look(std::span<const Tick> ticks, const VesselPoses& poses) {
   if (ticks.empty()) return;
   {
     const std::lock_guard lock(mutex_);
     for (const Tick& tick : ticks) {
-      tracker_.follow(tick);
       if (ticks_ > 0) timing_.missed += std::max<std::int64_t>(0, tick.number - newest_.number - 1);
       timing_.step = std::max(timing_.step, tick.step_time);
       newest_.number = tick.number;
       ++ticks_;
     }
     newest_ = ticks.back();
+    poses_ = poses;
     is_new_ = true;
     // a few that come right behind others wait for the next
     const Clock::time_point now = Clock::now();
@@ -74,7 +74,7 @@ void DisplayLoop::run() {
 void DisplayLoop::show_newest() {
   Tick tick;
   VesselPoses poses;
-  ViewFrame::Timing timing;
+  DisplayTiming timing;
   std::int64_t ticks = 0;
   {
     const std::lock_guard lock(mutex_);
@@ -82,7 +82,7 @@ void DisplayLoop::show_newest() {
     if (!is_new_) return;
     is_new_ = false;
     tick = newest_;
-    poses = tracker_.poses();
+    poses = poses_;
     timing = timing_;
     timing_.step = 0;
     ticks = ticks_;

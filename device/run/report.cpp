@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/commands/live_report.h"
+#include "device/run/report.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/live_advice.h"
 #include "base/files/json.h"
 #include "base/text/printable.h"
 #include "base/text/readable.h"
 #include "core/vectors.h"
+#include "device/advice/words.h"
 
 namespace wholehand {
 namespace {
@@ -104,6 +104,24 @@ std::string Narrator::status(const Tick& tick) const {
   line += fmt::format("  force {:.2f} N", tick.feedback);
   if (scene_.task) line += "  " + board(mixing_board(scene_, tick));
   return line;
+}
+
+std::optional<std::string> AdviceNarrator::narrate(const Advice& advice) {
+  const bool is_new = advice.vessel != vessel_ || advice.is_held != is_held_;
+  const std::string words = advice_words(advice);
+  if (is_new && advice.vessel >= 0 && words.empty()) return std::nullopt;  // it may have some later
+  vessel_ = advice.vessel;
+  is_held_ = advice.is_held;
+  if (!is_new || advice.vessel < 0) return std::nullopt;
+  return fmt::format("{:8.2f} s  advice, {}: {}", static_cast<double>(advice.tick) / rate_,
+                     scene_.vessels[static_cast<std::size_t>(advice.vessel)].name, words);
+}
+
+std::string tally_words(const AdviceTally& tally) {
+  std::string words = fmt::format("computed on {}: {}", tally.place, counted(tally.updates, "update"));
+  if (tally.updates > 0) words += fmt::format(" of {} on average", counted(tally.grips / tally.updates, "grip"));
+  if (tally.seconds > 0) words += fmt::format(", {:.1f} a second, no two further apart than {:.2f} s", tally.rate(), tally.longest);
+  return words;
 }
 
 std::string live_text(const LiveSummary& summary) {
