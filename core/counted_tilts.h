@@ -13,7 +13,7 @@ namespace wholehand {
 // which `until_poured` of the fill has poured. All tilts count in a scene without `until_poured`, for an empty fill, and for a vessel without liquid.
 // Computed in double for every evaluator, so that all leave out the same states. Throws as prepare_vessel.
 std::vector<std::size_t> counted_tilts(const Scene& scene, std::size_t vessel, const std::vector<double>& fills);
-// At the scene's own fills; without liquid, at its only one.
+// The same at the scene's own fills; without liquid, at the fill 0.
 std::vector<std::size_t> counted_tilts(const Scene& scene, std::size_t vessel);
 // The last counted tilt at each fill, rad: a grip that is safe at all tilts is safe up to it. Empty in a scene without tilts.
 std::vector<double> last_tilts(const Scene& scene, std::size_t vessel);

@@ -152,7 +152,7 @@ void examine_table(const Hand& hand, const Vessel& vessel, const Placement& plac
     const PlacedFinger finger = place_finger(hand, placement, f);
     for (int k = 0; k < finger_joints(f); ++k)
       depth = std::max(depth, depth_in_table(vessel, answer.posed[finger_start(f) + k], finger.radius[k]));
-    // the thumb's chain starts at its base: its points beyond are one earlier
+    // the thumb's chain starts at its base, so its first point beyond is point 1; a finger's is point 2
     const int first = f == 0 ? 1 : 2;
     const Vec3 radii(finger.radius[first], finger.radius[first + 1], finger.radius[first + 2]);
     const Vec3 thumb_lengths = placement.scale * Vec3(hand.length[0][0], hand.length[0][1], hand.length[0][2]);

@@ -159,7 +159,7 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     see_place(hand, separation, place_step(support, separation, place, finger.frame), motion, watch);
     resting.undecided = resting.undecided || passes_close(vessel, support, separation, place, finger.frame);
 
-    // which joint turns next: after an evaluation of all points, or where one that was due touches
+    // the next joint to turn is chosen once all points have been evaluated, or where a point that was due touches
     const int moving = std::max(motion.joint, 0);  // first bone that moves
     int next = place_to_see(hand, watch.number + 1, motion.joint, watch.touched);
     const bool seen_all = watch.looks && next >= places;

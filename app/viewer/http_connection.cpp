@@ -44,7 +44,7 @@ bool is_header(std::string_view name, std::string_view wanted) {
   return name.size() == wanted.size() && std::equal(name.begin(), name.end(), wanted.begin(), is_same_letter);
 }
 
-// A number of bytes; anything else is too many.
+// Parses a number of bytes; anything else counts as too many.
 std::size_t length_of(std::string_view text) {
   std::size_t length = 0;
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);

@@ -49,7 +49,7 @@ ChartName spoken_name(const BoxChart& chart) {
 
 // ---- where things are ----
 
-// From 0 if nothing is below it and little space is lost.
+// The y axis starts at 0 if no value is below it and this wastes little space.
 void set_heights(const BoxChart& chart, PlotArea& area) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   const auto widen = [&](double value) {

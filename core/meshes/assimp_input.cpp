@@ -71,7 +71,7 @@ std::string binary_of_ascii_stl(const MeshFile& file, std::string_view text) {
 
 // ---- OBJ ----
 
-// Faces of an OBJ as it names their corners: from 1 on, or from -1 back.
+// Vertices and faces of an OBJ. A face names its corners by index, from 1 up or from -1 back.
 class ObjShape {
  public:
   ObjShape(const MeshFile& file, std::string_view text) : file_(file), words_(file, text) {}

@@ -263,8 +263,7 @@ void refuse_buffers(const MeshFile& file, const GltfJson& trimmed, bool is_binar
 
 // ---- tinygltf ----
 
-// The files beside a .gltf, as tinygltf asks for them. It also looks in the working directory, under "./NAME": here that is the same
-// folder.
+// Gives tinygltf the files next to a .gltf. tinygltf also tries "./NAME" in the working directory, which here means the same folder.
 struct GltfNeighbors {
   std::filesystem::path folder;
   std::string outside;  // the name that was asked for, where it leads out of the folder

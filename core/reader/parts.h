@@ -52,11 +52,12 @@ void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights);
 void read_output(const SceneTable& root, OutputData& output);
 
 // ---- tabletop.cpp ----
-// Vessels have been read: each reaches above the clearance.
+// Call it after the vessels have been read: it refuses a clearance that reaches a vessel's mouth. Meshes are checked once they are
+// loaded.
 void read_tabletop(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TableData>& tabletop);
 
 // ---- arm.cpp ----
-// [hand] has been read: by default the shoulder is on the side of the hand.
+// Call it after [hand] has been read: by default the shoulder is on the hand's side.
 void read_arm(const SceneTable& root, Handedness handedness, std::optional<ArmData>& arm);
 
 // ---- robust.cpp ----

@@ -217,7 +217,7 @@ class OmegaGripper final : public Gripper {
     }
   }
 
-  // The two tracked points are the rests of thumb and index finger; their middle is not the SDK's position where only one of them moves.
+  // Thumb and index finger rest at the two tracked points. Where only one of them moves, their middle is not the SDK's position.
   bool read_pose(GripperState& state) noexcept {
     double frame[3][3], gap;
     Triple position, thumb, finger;

@@ -24,14 +24,14 @@ Rotation rotation_from_dhd(const double frame[3][3]);
 // empty (see load_dhd_library). `watchdog_s`: without a new force for that long the device drops all force, whatever has become of this
 // program; in steps of 125 us, 31.875 ms at most, and stderr reports a longer one.
 //
-// The name and what the SDK says of errors are kept to printable ASCII.
+// The name, and error texts of the SDK, are reduced to printable ASCII.
 //
-// read() answers value or error, never timeout: the SDK waits by itself and fails when the device is gone. A pose that is not finite is
-// handed on as it is, for the loop to judge. The SDK gives a measurement neither a number nor a time of its own: `sequence` counts reads, so
-// that a stale measurement looks like a device at rest, and `time` is the SDK's clock at the read.
-// write() leaves the device without force until a read has been good, and then enables force with the first write.
-// panic() calls nothing, since no call of the SDK may be made from a signal handler (they lock and allocate): it is a second thread's part, by
-// release_from_watchdog(), and the watchdog's.
+// read() answers value or error, never timeout: the SDK waits by itself and fails when the device is gone. It passes on a pose that is not finite,
+// and the loop judges it. The SDK gives a measurement neither a number nor a time of its own. So `sequence` counts reads, a stale measurement looks
+// like a device at rest, and `time` is the SDK's clock at the read.
+// write() leaves the device without force until a read has succeeded; the first write after it enables force.
+// panic() calls nothing: calls of the SDK lock and allocate, so no signal handler may make them. A second thread releases the force with
+// release_from_watchdog(), and so does the device's watchdog.
 //
 // Throws Error (usage: a watchdog that is no positive time; failure: no SDK, no such device, another session has it, another model, or
 // a device that takes no watchdog or not these maximum forces).

@@ -141,7 +141,7 @@ bool Walk::move() noexcept {
   const Surroundings here = surroundings(obstacles, at, radius);
   const double clear = std::max(0.0, here.separation);
   const Heading ahead = heading(here, clear);
-  // the center stays outside of the surface if it goes less than its distance; half the radius leaves room for the way back out. A sliding proxy
+  // the center stays outside the surface if it moves less than its distance to it; half the radius leaves room for the way back out. A sliding proxy
   // passes a surface only at a flat angle, so a move shorter than a wall's thickness crosses none.
   const double sure = clear + 0.5 * radius + LEAST_STEP;
   const double step = std::min({ahead.length, most, ahead.along ? std::max(sure, obstacles.thinnest - 3 * LEAST_STEP) : sure});

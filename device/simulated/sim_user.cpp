@@ -163,7 +163,7 @@ void SimUser::take_shown_grip() noexcept {
   own.path = shown_.path;
 }
 
-// Middle of the tips while the vessel pours. A grasp that is higher on the vessel leaves the vessel where it is.
+// Middle of the tips while the vessel pours. A higher grasp moves the middle up the vessel; the vessel stays where it is.
 Vec3 SimUser::on_path(double tilt) const noexcept {
   const double up = traits_[Trait::height];
   return job().path.middle(tilt) + up * Vec3(0, std::cos(tilt), -std::sin(tilt));

@@ -26,7 +26,7 @@ constexpr const char* SAFE_TILT = "force beyond safe";  // where one side report
 const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
                                 FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
 
-// Whether an iteration of the grip used up its steps.
+// Status bits of the iterations that used up their steps.
 constexpr std::uint32_t ALL_STEPS = STATUS_PROXY_UNSETTLED | 0x1Fu << STATUS_UNSETTLED_SHIFT;
 
 // Whether grip `i` of `a` has another outcome than grip `k` of `b`, ignoring the bits `besides` of the status.

@@ -266,7 +266,7 @@ void Team::restart_counter() {
 void Team::ask(std::uint64_t amount) {
   mpi_->amount = amount;
   mpi_->is_asked = true;
-  // as MPI_Fetch_and_op, with a request to test
+  // like MPI_Fetch_and_op, but with a request that can be tested
   MPI_Rget_accumulate(&mpi_->amount, 1, MPI_UINT64_T, &mpi_->first, 1, MPI_UINT64_T, 0, 0, 1, MPI_UINT64_T, MPI_SUM, mpi_->window,
                       &mpi_->question);
 }

@@ -19,7 +19,7 @@ struct MeshLines {
 // left out.
 class MeshView {
  public:
-  // Keeps references to both.
+  // Keeps references to `body` and `edges`.
   MeshView(const MeshBody& body, const MeshEdges& edges, const Triple& right, const Triple& up, const Triple& toward, double pixel);
 
   // Chains of edges, cut where they go behind the mesh, simplified to a quarter of a pixel. Contours and creases together have at most

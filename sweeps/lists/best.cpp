@@ -47,7 +47,7 @@ std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::form
 
 // A column of the table.
 struct Column {
-  // Whether a table that is not wide has it: always, or where there is room, first those that come first here.
+  // When a narrow table has the column: always, or where there is room; columns of earlier enumerators stay longest.
   enum Place { always, effort, held_share, safe_tilt, fingers, gap, wide_only };
 
   std::string title;

@@ -52,14 +52,14 @@ SweepSize sweep_size(const Scene& scene, double bytes_per_grip);
 // Throws Error with the sizes: (usage) the sweep exceeds LARGEST_SWEEP grips; (failure) its results exceed `free_bytes`.
 void check_sweep_size(const Scene& scene, const SweepSize& size, double free_bytes);
 
-// A grid numbers its grips with the axes azimuth, obliquity, roll, offset, hand scale, height as digits, azimuth the slowest.
-// Sobol points are numbered as the sequence goes; every axis keeps its own dimension of the sequence (AXIS_*), also where it is
-// constant, so that opening a further axis leaves the values of the others as they were. A range is filled continuously, of a list
-// equal parts of (0, 1) pick the values, a number stays. Every vessel gets the same points.
+// A grid numbers its grips with the axes azimuth, obliquity, roll, offset, hand scale, height as digits, azimuth the slowest. Sobol
+// points are numbered as the sequence goes. Every axis, even a constant one, keeps its own dimension of the sequence (AXIS_*), so
+// that opening a further axis leaves the values of the others as they were. A range is filled continuously, equal parts of (0, 1)
+// pick the values of a list, and a number stays. Every vessel gets the same points.
 //
-// Azimuth is left out of a grid where it changes nothing: every vessel is a body of revolution whose center of mass lies on its
-// axis, and no vector of the vessel frame is kept. Then the grips at the first azimuth stand for those at all `copies()` azimuths,
-// and the result file repeats them.
+// A grid leaves out azimuth where it changes nothing: every vessel is a body of revolution whose center of mass lies on its axis,
+// and no vector of the vessel frame is kept. Then the grips at the first azimuth stand for those at all `copies()` azimuths, and
+// the result file repeats them.
 class Plan {
  public:
   // Throws Error (usage) if the grips exceed LARGEST_SWEEP, or the Sobol points SOBOL_LARGEST_COUNT.

@@ -39,8 +39,8 @@ struct Variable {
   int bits = 0;         // of a mask: one for each finger or joint; 0: no mask
   std::int32_t missing = MISSING;
 
-  // Whether one value stands for a missing one (_FillValue). Readers like xarray convert integers with a _FillValue to reals, but masks are for bit
-  // operations, so they use a mask without bits instead.
+  // Whether the variable marks missing values (_FillValue). Readers like xarray convert integers with a _FillValue to reals. Masks must stay integers
+  // for bit operations, so an infeasible grip has a mask without bits instead.
   bool has_missing() const { return type == NumberType::real || (bits == 0 && !always); }
 };
 

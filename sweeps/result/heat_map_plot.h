@@ -26,7 +26,7 @@ struct HeatMapPicture {
 // The pictures drawn, with one color scale for all.
 std::vector<PictureFile> heat_map_files(const std::vector<HeatMapPicture>& pictures);
 
-// Colors of scores from `low` to `high`, to whole twentieths.
+// Colors of scores from `low` to `high`, widened to whole twentieths.
 ColorScale score_scale(double low, double high);
 
 // The pictures of a sweep, one per vessel, with titles that name the maximized quantity. Vessels whose names give the same file name get a number.

@@ -35,7 +35,7 @@ std::vector<hsize_t> lengths_of(hid_t dataset) {
   return lengths;
 }
 
-// All that is neither a value of a part nor one of the checksums.
+// Checksum of all bytes that are neither values of a part nor checksums.
 std::optional<std::string> rest_checksum(int file, const FileRange& room, const std::vector<ChecksumPart>& parts) {
   std::vector<FileRange> ranges{room};
   for (const ChecksumPart& part : parts) ranges.push_back(part.range);
@@ -51,7 +51,7 @@ std::string checksums_text(const ChecksumParts& all, const std::string& rest) {
   return fmt::format("{}{} {}\n{}", START, text.size(), checksum_text(text.data(), text.size()), text);
 }
 
-// The other way round. False: it was never so written.
+// Reads that text. False: checksums_text never wrote it.
 bool read_checksums(const std::string& text, FileRange& room, std::string& rest, std::vector<ChecksumPart>& parts) {
   const std::size_t end = text.find('\n');
   if (!text.starts_with(START) || end == std::string::npos) return false;

@@ -64,7 +64,8 @@ constexpr const char* MESH_LATTICES = "mesh_lattices";
 constexpr const char* WALL_TIME = "wall_time_s";
 constexpr const char* KERNEL_TIME = "kernel_time_s";
 
-// Upper bound of the file's bytes. Needs no facts, and of the info only the precision; without them, some texts' bytes are left out.
+// Upper bound of the file's bytes. Needs no facts, and only the precision of the info; the bound then leaves out the bytes of the texts that are
+// missing.
 std::uint64_t result_size(ResultContents contents);
 
 // Creates the file `path` with every dimension, attribute and variable, all values that need no grip, and room for the others: every variable of the

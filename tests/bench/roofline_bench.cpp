@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The whole roofline as one benchmark of one turn: peaks and kernels are measured in the same run, and the table follows Google Benchmark's.
+// The whole roofline as one benchmark with one iteration: one run measures peaks and kernels, and its table follows Google Benchmark's.
 #include <optional>
 
 #include "base/text/error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What may be absent or infinite in planes and what must not, by tampering with good ones, a value at a time.
+// Which values of planes may be absent or infinite, and which must not. Each test spoils one value of good planes.
 #include "core/absent.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ struct Absent : testing::Test {
   Misplaced look(bool overflows = false) const {
     return misplaced_values(scene, 0, fields, planes.count, planes.count, planes.reals.data(), planes.uints.data(), overflows);
   }
-  // What is found with the value changed, which is then put back.
+  // Changes the value, counts what is misplaced, and puts the value back.
   std::uint64_t with(int field, std::size_t grip, double changed) {
     const double kept = std::exchange(value(field, grip), changed);
     const Misplaced found = look();

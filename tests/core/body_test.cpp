@@ -153,8 +153,8 @@ TEST(Body, SpheresOverlapMoreThanADepth) {
   EXPECT_FALSE(core_f64::overlap_more(a, b, 20)) << "a reach below 0 is not squared";
 }
 
-// Only bones that cannot be the deepest are skipped: every depth so far gives the larger of it and the overlap. The bounds round, by some
-// units of 100 mm.
+// A search skips only bones that cannot be the deepest: from any depth so far it gives the larger of that depth and the overlap. The bounds round, by
+// some units of 100 mm.
 TEST(Body, BonesThatCannotBeTheDeepestArePassedBy) {
   Random random(22);
   const auto point = [&](double size) { return size * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
@@ -269,8 +269,8 @@ TEST(Body, DepthsCountTheSpheresOfTheBones) {
   EXPECT_GT(judged_out, 2) << "in none is it a sphere alone that makes the grip implausible";
 }
 
-// The largest of all pairs of spheres of two bones, some 1.1 mm apart in a hand of scale 1, is found by another code; it is less by the
-// way from the nearest places to the nearest samples, and more by what the tapers of bones are for: see docs/method.md.
+// Other code finds the largest overlap of all pairs of spheres on two bones, which lie about 1.1 mm apart in a hand of scale 1. It may be smaller by
+// the distance from the nearest places to the nearest samples, or larger by the bones' tapers: see docs/method.md.
 TEST(Body, SelfDepthIsTheLargestOverlapOfTwoDigits) {
   int overlapping = 0, near = 0;
   double widest = 0;
@@ -331,7 +331,7 @@ TEST(Body, SelfDepthLeavesOutNoPairOfBones) {
   EXPECT_LT(from_joints, grips / 2);
 }
 
-// A finger comes to rest before any of its moving spheres is inside, and some of them touch that no joint does.
+// A finger comes to rest before any of its moving spheres is inside. Some spheres touch where no joint does.
 TEST(Body, FingersRestBeforeTheirSpheresAreInside) {
   int touching = 0, rests = 0;
   each_grip({Pose::articulated}, [&](const BodyScene& on, const GripInput& grip, const GripResult& result) {
@@ -352,7 +352,7 @@ TEST(Body, FingersRestBeforeTheirSpheresAreInside) {
   EXPECT_GT(touching, 50);
 }
 
-// With a sphere at each step of the outline, what rests on the glass rests with the bone's side, not with the joints beside it.
+// With spheres between the joints, the side of a bone rests on the glass; without them, only its joints do.
 TEST(Body, MoreSpheresKeepTheBonesFurtherOut) {
   std::array<double, 3> deepest{};
   for (const int between : {0, 2, 8}) {
@@ -403,7 +403,7 @@ TEST(Body, SpheresPressWhereTheirDigitHasRoom) {
     }
     for (int f = 0; f < FINGER_COUNT; ++f) EXPECT_LE(count[f], finger_joints(f) - 1);
     EXPECT_LE(count[FINGER_COUNT], FINGER_COUNT);
-    // the lid presses nowhere, so it may be that a ball touches, has room, and is no contact: only of a shell none
+    // the lid takes no contact, so a sphere may touch it, have room, and still be no contact
     const auto of_digit = [&](int digit, bool is_palm) {
       return std::count_if(touching.begin(), touching.end(),
                            [&](const FoundBall& ball) { return ball.digit == digit && ball.is_metacarpal == is_palm; });
@@ -417,7 +417,7 @@ TEST(Body, SpheresPressWhereTheirDigitHasRoom) {
   EXPECT_GT(left_out, 0) << "in none is a digit's room too small";
 }
 
-// What the room of a digit costs: the effort with the contacts that there are, and with every sphere that touches.
+// The cost of a digit's limited room: the effort with the contacts that fit, against the effort with every touching sphere.
 TEST(Body, SpheresThatHaveNoRoomHardlyMatter) {
   int grips = 0, with_spheres = 0, fewer = 0, much = 0;
   double most = 0;

@@ -258,7 +258,7 @@ TEST(Closure, LatticeGivesTheOutlinesAnswerAtEveryAzimuth) {
   }
 }
 
-// What starts far above or beside the lattice of a tall cup comes to it aslant, and must not pass over its wall.
+// A trace that starts far above or beside the lattice of a tall cup meets it at a slant. It must not pass through the wall.
 TEST(Closure, OfATallHollowMeshMeetsTheNearWalls) {
   VesselData shell;
   shell.outline = {line_to(40, 0), line_to(40, 400), line_to(37, 400), line_to(37, 3), line_to(0, 3)};

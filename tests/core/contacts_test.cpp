@@ -55,7 +55,7 @@ TEST(Contacts, AreThoseOfTheTouchMask) {
   EXPECT_EQ(core_f64::find_contacts(vessel, ring_of_joints(48e-3, 50e-3), 0, pressing), 0);
 }
 
-// Where the mouth is, there is no glass. A shell has a rim there, and its wall is one.
+// There is no glass at the mouth, so nothing presses there. A shell has a rim there, and its wall takes a contact.
 TEST(Contacts, NothingPressesOnTheMouth) {
   std::array<core_f64::PressingJoint, JOINTS> pressing;
   const auto above = ring_of_joints(20e-3, 118e-3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The number that counts its operations: expressions whose counts are known, and a core that computes with it what it computes with doubles.
+// The number that counts its operations: expressions with known counts, and a core that computes the same with it as with doubles.
 // sanitizers: none
 #include "tests/support/counted.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which tilts count for a fill, by going through its liquid tilt by tilt; and that the worst of a grip is of these tilts alone.
+// Which tilts count for a fill, found by going through its liquid tilt by tilt. A grip's worst values come from these tilts alone.
 #include "core/counted_tilts.h"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST(CountedTilts, AllCountWhereThereIsNothingToPour) {
   EXPECT_EQ(counted_tilts(scene, 0), (std::vector<std::size_t>{0}));
 }
 
-// What a grip has over the tilts of a fill, from the states that count.
+// A grip's values over the tilts of a fill, computed from the states that count.
 struct OverTilts {
   double peak = -1, peak_tilt = 0, hold = 0, safe = NOT_A_NUMBER;
 };
@@ -129,7 +129,8 @@ void expect_same(double a, double b, const std::string& what) {
   EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << what << ": " << a << " and " << b;
 }
 
-// Planes of `cut` against those of the same scene without `until_poured`. Answers by how many fills of grips have another worst.
+// Compares planes of `cut` with those of the same scene without `until_poured`. Returns for how many grips and fills the worst
+// value changes.
 std::size_t expect_cut(const Scene& cut, const GatheredPlanes& some, const GatheredPlanes& all, std::size_t vessel,
                        Precision precision) {
   const std::vector<std::size_t> counted = counted_tilts(cut, vessel);

@@ -97,7 +97,8 @@ TEST(EffortPlanes, FollowFromTheStates) {
       if (real(FIELD_PUSH) > 0) {
         EXPECT_LE(real(FIELD_EFFORT, states - tilts), 1);  // upright, fullest
       }
-      // up to the set friction exactly where the worst state is held with it: 1e-3 of friction, as much of the effort
+      // the friction needed is at most the set friction exactly if the set friction holds the worst state: to 1e-3 of friction, and
+      // as much of the effort
       if (worst < 0.99) {
         EXPECT_LE(real(FIELD_FRICTION_NEEDED), scene.force.friction + 1e-3);
       }

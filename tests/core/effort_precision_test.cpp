@@ -58,9 +58,9 @@ class EffortPrecision : public testing::Test {
   std::vector<GripInput> grips_;
 };
 
-// Fingers rest within 1e-6 m of the surface in float, so a bracket is held to those of the grip 3e-6 m higher and lower too. What
-// is left is where places of contacts end beside each other, 1e-6 m of arms of 5 mm and twice, and rounding. That takes 3e-5 of the
-// strength from what the hand can carry, S over the weight of which is 8.
+// In float, fingers rest within 1e-6 m of the surface, so the bracket is also compared with those of the grip 3e-6 m higher and
+// lower. Two differences remain. Places of contacts end 1e-6 m off, on arms of 5 mm, twice. Rounding takes 3e-5 of the strength
+// from what the hand can carry; S over the weight of this is 8.
 TEST_F(EffortPrecision, BracketsOfFloatMeetThoseOfDouble) {
   const auto core = make_core_evaluator(scene_), single = make_core_float_evaluator(scene_);
   const GatheredPlanes in_float = planes(*single, grips_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // sanitizers: none
-// Kernel 10 against the laws of what it computes, on contact sets at random. Nothing here knows how an effort is found.
+// Kernel 10 against the properties of an effort, on random contact sets. These tests do not depend on how the search works.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,8 +60,8 @@ void expect_not_above(const Effort& a, const Effort& b, std::uint64_t seed) {
 
 // ---- what an answer must have ----
 
-// What a contact of unit normal force can take up of a motion at most, in W: the most of force.velocity + moment.turning over its
-// cone, against the motion.
+// The most power, in W, with which a contact of unit normal force can oppose a motion: the largest -(force.velocity +
+// moment.turning) over its cone.
 double opposed(const ContactPoint& contact, const core_f64::HandStrength& hand, Vec3 velocity, Vec3 turning) {
   const Vec3 against = -(velocity + glm::cross(turning, contact.place - ABOUT));
   const double along = glm::dot(against, contact.normal), spin = hand.torsion * glm::dot(turning, contact.normal);
@@ -282,8 +282,9 @@ TEST(EffortProperties, HandsOfUnevenStrengthAreSound) {
   EXPECT_GT(resisted, 800);
 }
 
-// Strengths up to 10^8 apart and torsions from 1 nm: a level that rounding leaves below zero is none, and what it carried is missing.
-// Such forces are no answer: a search that allowed 1e-7 of the load left 3e-8 in three of these sets.
+// Strengths up to 10^8 apart and torsions from 1 nm: rounding may leave a level below zero. Such a level counts as none, and the force that it
+// carried is missing from the balance. The search must not accept such forces: allowing an error of 1e-7 of the load left 3e-8 in three of these
+// sets.
 TEST(EffortProperties, ForcesOfStrengthsFarApartBalanceTheLoad) {
   int resisted = 0;
   for (const std::uint64_t first : {1600u, 7100u})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What files are by their first bytes.
+// Kinds of files, recognized by their first bytes.
 #include "core/file_kind.h"
 
 #include <gtest/gtest.h>

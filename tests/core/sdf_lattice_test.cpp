@@ -47,7 +47,7 @@ TEST(Sdf, LatticeOfHalvesIsOffByTheirSpacing) {
         for (int i = 0; i < lattice.nx; ++i) {
           const double exact = core_f64::lattice_sample(floats, i, j, k), stored = core_f64::lattice_sample(halves, i, j, k);
           differ += stored != exact;
-          // half a unit of the 11th bit, or of 2^-24 in units of 2^-10 m
+          // half a unit of the 11th bit, or for the smallest halves half of 2^-24 in units of 2^-10 m
           ASSERT_NEAR(stored, exact, std::max(0x1p-11 * std::abs(exact), 0x1p-35)) << i << " " << j << " " << k;
         }
       }

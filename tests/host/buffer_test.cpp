@@ -33,7 +33,7 @@ TEST_P(HostBuffer, WritesPartOfIt) {
   EXPECT_EQ(buffer.read_as<int>(3), (std::vector<int>{7, 8, 3}));
 }
 
-// Those of a device share its memory.
+// Small buffers of one device share its memory.
 TEST_P(HostBuffer, SmallOnesKeepTheirContentsWhileOthersComeAndGo) {
   const auto values_of = [](std::size_t i) { return std::vector<std::size_t>(1 + i * 37 % 900, i); };
   std::vector<Buffer> buffers(1000);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a discrete GPU would meet: memory that the host does not see, queues that only copy, one grip an invocation. A layer shows lavapipe as
-// such a device, and the validation layer above it judges what each of its queues is given.
+// Conditions of a discrete GPU: memory that the host does not see, queues that only copy, one grip an invocation. A layer presents lavapipe as such a
+// device, and the validation layer above it judges everything that each queue gets.
 // sanitizers: none
 #include <gtest/gtest.h>
 

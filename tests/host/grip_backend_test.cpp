@@ -43,7 +43,7 @@ std::size_t differences(const GatheredPlanes& a, const GatheredPlanes& b) {
   return count;
 }
 
-// The same pipelines on the same device: however the data got there.
+// However the data reach the device, the same pipelines give the same bits.
 TEST(GripBackend, StagedTransfersGiveTheSameBits) {
   const Scene scene = wet({beaker1(), beaker3()}, left_hand());  // a left hand's planes are turned on the host
   const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS, FIELD_MIDPOINT, FIELD_PEAK_FORCE}, scene);
@@ -57,8 +57,8 @@ TEST(GripBackend, StagedTransfersGiveTheSameBits) {
   }
 }
 
-// However many grips an invocation has, and whatever is left for the last ones. The states take two dispatches, and the second begins
-// within a fill.
+// The bits do not depend on how many grips an invocation has, nor on how many are left for the last ones. The states take two dispatches, and the
+// second begins within a fill.
 TEST(GripBackend, ForcesOfGripsTogetherHaveTheBitsOfForcesOneByOne) {
   Scene scene = wet({beaker1()});
   scene.liquid->fills = {0, 0.3, 0.6};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every kernel may weigh. The small build is what drivers of GPUs compile: Mesa's driver for AMD makes its pipelines here for chips that are not
-// there ("null hardware": nothing runs), and says what they take.
+// Size limits of every kernel. Drivers of GPUs compile the small build. Mesa's driver for AMD makes its pipelines here for chips that are absent
+// ("null hardware": nothing runs), and reports what they take.
 // sanitizers: none
 #include <fmt/format.h>
 #include <gtest/gtest.h>

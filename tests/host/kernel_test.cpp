@@ -167,7 +167,7 @@ TEST_F(HostKernel, TellsADriverThatContractsFromOneThatRounds) {
   EXPECT_EQ(contracted_precisions(device, probe_shaders()), (std::vector{Precision::single, Precision::full}));
 }
 
-// The layer is there and heard: this buffer was not made to be bound.
+// The validation layer is active and heard: this buffer was not created for binding.
 TEST_F(HostKernel, MisuseIsToldByTheValidationLayer) {
   const Kernel kernel(device, test_shader("host_count"), {}, "host_count");
   const Buffer staging(device, 64, Memory::upload);

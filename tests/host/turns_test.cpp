@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// No kernel takes more turns of loops than every driver grants, and what would take more is the core's. A meter after each kernel (meter.glsl)
-// measures what a driver counts that ends loops after so many, which llvmpipe does. On every other the meter must measure 0.
+// No kernel takes more turns of loops than every driver grants; the core computes what would take more. A meter after each kernel (meter.glsl)
+// measures the count of a driver that ends loops after so many turns, as llvmpipe does. On every other driver the meter must measure 0.
 // sanitizers: none
 #include "host/turns.h"
 
@@ -123,7 +123,7 @@ void expect_bounds(const std::map<std::string, std::int64_t>& turns, const std::
   }
 }
 
-// Expects that a kernel took more turns than `least`, where the driver counts them. One that ends no loops leaves none to miss.
+// Expects that a kernel took more turns than `least`, where the driver counts them. A driver that ends no loops counts no turns.
 void expect_worst(bool counts, std::int64_t turns, std::int64_t least, const std::string& kernel) {
   EXPECT_GE(turns, counts ? least + 1 : 0) << kernel << ": not its worst";
   EXPECT_LE(turns, counts ? host::TURN_BUDGET : 0) << kernel;

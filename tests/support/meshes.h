@@ -11,7 +11,7 @@
 
 namespace wholehand {
 
-// About the origin, outward; m. Each level of a sphere has four times the triangles: 20 at level 0.
+// A sphere about the origin with outward faces; m. Each level has four times the triangles of the one before: 20 at level 0.
 TriangleMesh icosphere(double radius, int level);
 // About the y axis.
 TriangleMesh torus(double large_radius, double small_radius, int around, int across);

@@ -167,7 +167,7 @@ TEST(CommandLine, EvaluatesOneGrip) {
   EXPECT_EQ(parse_json(direct.output), parse_json(points.output));
 }
 
-// The program with shipped scenes of its own, whatever a package has installed: none of them has places.
+// A copy of the program with shipped scenes of its own, whatever a package has installed. None of these scenes has places.
 TEST(CommandLine, NamesNoScenesWithPlacesWhereThereAreNone) {
   const wholehand::TemporaryFolder folder;
   const std::string text = wholehand::file_text(wholehand::find_scene("three_beakers")), program = folder / "bin/wholehand";

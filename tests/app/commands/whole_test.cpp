@@ -104,7 +104,7 @@ TEST(Whole, SweepOnVulkanAndOnTheCoreAgree) {
   EXPECT_TRUE(scores == read_values(core, "score") || scores == read_values(vulkan, "score"));
 }
 
-// A sweep that was started in the background. One that goes on does so where it began.
+// Starts a sweep in the background. A resumed sweep takes the backend of the first.
 pid_t start(const std::string& scene, const std::string& output, bool resume) {
   const pid_t child = fork();
   if (child != 0) return child;

@@ -54,7 +54,7 @@ TEST(RunningCorrelation, SaysWhatIsLacking) {
 // The mean of three 0.1 is not 0.1.
 TEST(RunningCorrelation, RoundingIsNoScatter) { EXPECT_EQ(running({0.1, 0.1, 0.1}, {1, 2, 3}).pearson().lack, Lack::one_x); }
 
-// Pairs that come three times, and pairs that come once.
+// A merge with weights equals repeated pairs: here three times those of one accumulator, once those of the other.
 TEST(RunningCorrelation, WeighsThePairsOfAnother) {
   std::vector<double> x, y, yes, all_x, all_y, all_yes;
   RunningCorrelation one, two, one_yes, two_yes;

@@ -247,7 +247,7 @@ TEST(MeshCheck, TheBackOfATwoSidedSurfaceIsLeftOut) {
   EXPECT_TRUE(whole.facts.closed && whole.facts.oriented);
   EXPECT_NEAR(whole.facts.volume, 0.006, 1e-17);
   EXPECT_TRUE(says(mesh_check_text(whole.facts), "12 triangles lay upon others that face the other way and were left out."));
-  // some have none, and some are there by their backs alone
+  // some faces have no back, and of some only the back is left
   TriangleMesh most = two_sided(cube());
   most.triangles.erase(most.triangles.begin() + 15, most.triangles.begin() + 18);
   most.triangles.erase(most.triangles.begin() + 7);

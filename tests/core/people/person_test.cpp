@@ -163,7 +163,7 @@ TEST(Person, IsTheSameForAnyOrderAndAnyNumberOfThreads) {
   EXPECT_FALSE(same(forward[0], draw_person(people, SEED + 1, 0)));
 }
 
-// The order in which the shares are drawn names every person for good.
+// The order of the draws determines every person, so it must never change.
 TEST(Person, SharesAreDrawnInTheOrderOfTheInputs) {
   const std::vector<double> inputs = person_inputs(draw_shares(SEED, 5));
   ASSERT_EQ(inputs.size(), 3 + SEGMENT_COUNT + TRAIT_COUNT);

@@ -61,7 +61,7 @@ TEST(AdviceLoop, TellsWhatCannotBeOpenedBeforeItStarts) {
   EXPECT_THROW(AdviceLoop(live_scene(), "core", 1), Error) << "without [strength]";
 }
 
-// A device that fails ends the advice, with one line, and not its owner.
+// A failing device ends the advice with one line, and leaves the session running.
 TEST(AdviceLoop, EndsWithALineWhereItsDeviceFails) {
   const Scene scene = advised_session_scene();
   const std::vector<Tick> record = play_session(scene, script_for(scene));
@@ -146,7 +146,7 @@ TEST(AdviceLoop, LeavesADeviceThatHangs) {
   gate->open();  // so that the thread ends before the test's program does
 }
 
-// While a device does not answer, what it advised before is too old to be shown; a line says so, once.
+// While a device does not answer, its earlier advice is too old to show; one line says so.
 TEST(AdviceLoop, SaysWhereItsDeviceHangsAndGoesOnAfterwards) {
   const Scene scene = advised_session_scene();
   const std::vector<Tick> record = play_session(scene, script_for(scene));

@@ -101,8 +101,8 @@ TEST_P(AdviserOn, TheSameQuestionsHaveTheSameAnswers) {
   }
 }
 
-// A hand that closes through the table, or that would be too deep in the vessel: a session has no such rules and holds the vessel, with this
-// effort. What is advised of a vessel that stands keeps them all; a held vessel has left the table.
+// A session has no rules about the table or the depth limit: it holds the vessel with a hand that closes through the table or too deep, and the
+// advice states this effort. The grips advised for a standing vessel keep these rules; a held vessel has left the table.
 TEST_P(AdviserOn, ASweepsRulesAreForWhatIsAdvisedAlone) {
   Scene scene = advised_scene();
   scene.hand.depth_limit = 3e-3;
@@ -144,7 +144,7 @@ TEST_P(AdviserOn, ASweepsRulesAreForWhatIsAdvisedAlone) {
   EXPECT_TRUE(result_of(bare_adviser.advise(low, STEP_CLOUD).best->grip).through_table) << "it would be the best one";
 }
 
-// Nothing but the present grip, which goes through the table: it stays.
+// Only the present grip is possible, and it goes through the table: the advice keeps it.
 TEST(Adviser, TheOnlyGripIsGood) {
   Scene scene = advised_scene();
   scene.table->clearance = 0.1;  // no hand keeps above it
@@ -181,7 +181,8 @@ TEST(Adviser, Settles) {
   EXPECT_LE(changes, 1);
 }
 
-// The nearest of equally good grips is that of a hand that has come in, however far beside the vessel the hand still is.
+// Among equally good grips, the advice takes the one nearest to a hand that has come in, however far beside the vessel the hand
+// still is.
 TEST(Adviser, AHandBesideTheVesselIsAdvisedAsOneThatHasComeIn) {
   const Scene scene = advised_scene();
   Adviser beside(scene, "core", 1), in(scene, "core", 1);
@@ -211,7 +212,8 @@ TEST(Adviser, AGripThatIsGoodNeedsNoOther) {
   EXPECT_TRUE(is_there);
 }
 
-// For whom can follow no more: neither turned about the axis nor moved off it, although on this vessel that would be better.
+// For a user who can follow no other line: the advised grip neither turns about the axis nor moves off it, although on this vessel
+// that would be better.
 TEST(Adviser, KeepsTheLineOfWhoAsksForIt) {
   const Scene scene = advised_scene(lopsided());
   AdviceQuestion question = high_grip(scene, 0.6);
@@ -246,7 +248,7 @@ TEST_P(AdviserOn, ALeftHandIsAdvisedInTheWorldOfTheScene) {
     EXPECT_LT(distance(advice.posed.posed[j], mirrored(posed.posed[j], Handedness::left)), 1e-9) << j;
 }
 
-// The core, which does not take other fills: as a device that is lost then, or of a kind that never does.
+// The core behind a backend that does not take other fills, because its device is lost or never does.
 class FixedBackend final : public Backend {
  public:
   FixedBackend(const Scene& scene, const FieldSet& fields, bool is_lost)
@@ -269,7 +271,7 @@ class FixedBackend final : public Backend {
   bool is_lost_;
 };
 
-// The device's grips would have another liquid than those that the core rates: the core goes on, with one line.
+// The device's grips would have another liquid than the grips that the core rates. So the core takes over, with one line.
 TEST(Adviser, ADeviceThatDoesNotTakeOtherLiquidGivesWayToTheCore) {
   const Scene scene = advised_scene();
   for (const bool is_lost : {false, true}) {

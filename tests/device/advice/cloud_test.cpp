@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grips that are asked about lie within reach, half of them about the best one, others with each turn.
+// The grips of a question lie within reach: half of them about the best one, the others new with each turn.
 // sanitizers: address
 #include "device/advice/cloud.h"
 

@@ -95,8 +95,7 @@ TEST(SteppedAdvice, AsksNothingWhileHeldWhereNobodyFollows) {
   EXPECT_GE(held, 200);
 }
 
-// Five runs are enough to advise: after the next one there is nothing any more, neither to see nor to follow, and one line says
-// why.
+// Five runs suffice to advise. After the next run, which fails, there is no advice to show or to follow, and one line says why.
 TEST(SteppedAdvice, IsEndedByADeviceThatFails) {
   const Scene scene = advised_session_scene();
   const std::vector<Tick> record = play_session(scene, script_for(scene));

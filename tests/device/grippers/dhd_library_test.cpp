@@ -37,7 +37,7 @@ TEST(DhdLibrary, SaysWhyOneThatIsThereDoesNotLoad) {
   expect_has(line, "cannot load Force Dimension's SDK: " + text + ":");
 }
 
-// The loader would wait without end for a writer.
+// The loader would block forever, waiting for a writer.
 TEST(DhdLibrary, APipeIsNotWaitedFor) {
   const TemporaryFolder folder;
   const std::string path = folder / "libdhd.so";

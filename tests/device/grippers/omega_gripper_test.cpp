@@ -174,7 +174,7 @@ TEST_F(OmegaGripperTest, ReadErrorsCarryTheSdksWords) {
     EXPECT_EQ(state.gap, 0.5) << "left alone";
     EXPECT_EQ(state.sequence, 1u);
   }
-  // the words stay, whatever becomes of the SDK's
+  // our copy of the error text stays, whatever the SDK does to its own
   const std::string before = gripper->last_error();
   sdk->error = std::string(1000, 'x');
   EXPECT_EQ(gripper->last_error(), before);

@@ -102,7 +102,7 @@ TEST(OscGripper, AHelloOfASessionAllowsNoMoreForce) {
   EXPECT_EQ(rig.gripper->limits().gap[1], 0.0625);
 }
 
-// As where its hello came after its first state: no force that it does not bear is sent after that.
+// The hello comes after the hand's first state: from then on no force that the hand cannot bear may be sent.
 TEST(OscGripper, AHandThatBearsLessThanItSaidIsAFault) {
   for (const auto& numbers : std::vector<std::vector<double>>{{0, 0.1, 11.9, 8}, {0, 0.1, 12, 7.9}}) {
     OscRig rig({osc_state(1, hand_at(0))});
@@ -126,7 +126,7 @@ TEST(OscGripper, ALateHelloThatCannotBeReadIsAFaultWhereItIsTheFirst) {
   EXPECT_EQ(greeted.gripper->notes_for_report().size(), 1u);
 }
 
-// The largest forces are no guess where a hand said something about them.
+// If a hand sent a hello, its largest forces are never guessed, even if the hello is unreadable.
 TEST(OscGripper, AHelloThatCannotBeReadIsAFailure) {
   const std::string state = osc_state(1, hand_at(0)), good = osc_hello({0, 0.1, 5, 3});
   const std::string no_force = osc_hello({0, 0.1, -1, 3}), cut = good.substr(0, good.size() - 4);
@@ -152,7 +152,7 @@ TEST(OscGripper, AHelloThatCannotBeReadIsAFailure) {
   }
 }
 
-// An open gripper, where two send before the first state.
+// Opens a gripper to which two peers send before the first state.
 TEST(OscGripper, TheFirstStateMakesTheHandAndNothingElse) {
   const OscPeer other, hand;
   const std::string bye = osc_message("/wholehand/gripper/bye", "", {}), hello = osc_hello({0, 0.5, 500, 300});
@@ -410,7 +410,7 @@ TEST(OscGripper, SilenceOf50MillisecondsIsATimeout) {
   EXPECT_EQ(rig.state.sequence, before.sequence) << "left alone";
 }
 
-// Neither what cannot be read, nor what comes twice, nor what others say keeps a session alive.
+// Neither unreadable messages, nor repeated ones, nor other senders keep a session alive.
 TEST(OscGripper, OnlyANewStateEndsTheSilence) {
   OscRig rig({osc_state(1, hand_at(0))});
   const OscPeer second;
@@ -433,7 +433,7 @@ TEST(OscGripper, OnlyANewStateEndsTheSilence) {
                 place + ": states that came late or twice: 51", place + ": datagrams of others than the hand: 51"}));
 }
 
-// What comes after NaN in the same tick does not hide it.
+// A good state after a NaN in the same tick does not hide the NaN.
 TEST(OscGripper, ANaNIsNotOvertaken) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (const bool is_bundle : {false, true}) {
@@ -452,7 +452,7 @@ TEST(OscGripper, ANaNIsNotOvertaken) {
   }
 }
 
-// Whole sessions, without a clock. Ticks are quick then, and a machine that is busy may hand a datagram over after many of them: who is missed gets
+// Runs a whole session, without a clock. Ticks are then quick, and a busy machine may deliver a datagram many ticks later, so a missing hand gets
 // half a second of patience.
 LoopReport run_session(OscRig& rig, double seconds, const std::function<void(std::int64_t)>& before) {
   class Fed final : public Gripper {
@@ -562,7 +562,8 @@ TEST(OscGripper, ABeakerIsGraspedBySixtyStatesASecond) {
   }
 }
 
-// A step that the way to it would make an allowed motion of: over the longest of some intervals, of which one was long.
+// A jump that interpolation would turn into an allowed motion: it spreads the step over the longest of some intervals, one of which
+// was long.
 TEST(OscGripper, AJumpIsHandedOnAsOneStep) {
   OscRig rig({osc_state(1, hand_at(0))});
   ASSERT_EQ(rig.read(0), ReadOutcome::value);

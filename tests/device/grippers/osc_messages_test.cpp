@@ -188,7 +188,7 @@ TEST(OscMessages, CutDatagramsAreWrong) {
     }
 }
 
-// Lengths are never trusted: whatever the size of a part says, and whichever byte is another one.
+// The reader never trusts lengths, whatever the stated size of a part and whichever byte is damaged.
 TEST(OscMessages, DamagedBytesAreNoTrouble) {
   const std::string bundle = osc_bundle({osc_hello(A_HELLO), state_message(A_STATE)});
   for (std::size_t at = 0; at < bundle.size(); ++at) {

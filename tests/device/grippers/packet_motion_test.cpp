@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A hand that says where it is some dozen times a second, as the loop sees it a thousand times: no faster than it is, never ahead of it, and
-// not further behind than its packets are apart.
+// A hand reports its place some dozen times a second, and the loop sees it a thousand times a second: never faster than the hand, never ahead of it,
+// and no further behind than the interval between packets.
 // sanitizers: address
 #include "device/grippers/packet_motion.h"
 
@@ -93,7 +93,7 @@ double fastest(const std::vector<GripperState>& states) {
   return most;
 }
 
-// What the guard makes of it; Fault::none: it lets all of it pass.
+// The guard's verdict on the states; Fault::none: they all pass.
 Fault judged(std::vector<GripperState> states) {
   Guard guard(LiveData{}, GripperLimits{});
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -133,7 +133,7 @@ TEST(PacketMotion, ASenderAsFastAsTheLoopIsFollowedAtOnce) {
     ASSERT_LT(distance(states[tick].position, reaching(static_cast<double>(tick) * PACKET_TICK).position), 1e-12) << tick;
 }
 
-// Beyond the last measurement, or before the one before it, it never is.
+// The motion never goes beyond the last measurement, nor back before the one before it.
 TEST(PacketMotion, NothingIsExtrapolated) {
   for (const double rate : {60.0, 90.0, 240.0}) {
     const auto states = seen(even_packets(rate, 0.9), reaching, 0.95);
@@ -146,8 +146,8 @@ TEST(PacketMotion, NothingIsExtrapolated) {
   }
 }
 
-// A quick reach at the rates of engines, with frames that take long, packets that come in bunches, and lost ones: the guard must let it pass.
-// Held from packet to packet it would not.
+// A quick reach at the rates of engines, with long frames, packets in bunches, and lost packets: the guard must let it pass. It would not if the hand
+// stood still between packets.
 TEST(PacketMotion, TheStepsOfAnEngineAreNoJumpsForTheGuard) {
   for (const double rate : {60.0, 90.0, 240.0}) {
     double most = 0;
@@ -169,7 +169,7 @@ TEST(PacketMotion, TheStepsOfAnEngineAreNoJumpsForTheGuard) {
   }
 }
 
-// Bunches of as long as a sender may be silent, from one that is otherwise quick.
+// A bunch of packets after the longest allowed silence, from a sender that is otherwise quick.
 TEST(PacketMotion, ABunchAfterAPauseIsNotRunThrough) {
   for (const double rate : {60.0, 240.0, 1000.0}) {
     auto packets = even_packets(rate, 2.2);
@@ -192,7 +192,7 @@ TEST(PacketMotion, ATeleportIsAJump) {
   }
 }
 
-// What the sender's steps are found to be: whether each is allowed. The newest state of a tick is not the only one that counts.
+// Whether PacketSteps allows every step of the sender. It judges each state, not only the newest of a tick.
 template <class Truth>
 bool are_allowed(const std::vector<Packet>& packets, const Truth& truth) {
   PacketSteps steps(PACKET_RATE, LiveData{}.jump, JUMP_TURN);
@@ -210,7 +210,7 @@ TEST(PacketSteps, AQuickReachIsNoJump) {
   }
 }
 
-// In two ticks, half of it in each.
+// The bunch arrives in two ticks, half in each.
 TEST(PacketSteps, ABunchAfterAPauseIsNoJump) {
   for (const double rate : {60.0, 240.0, 1000.0}) {
     auto packets = even_packets(rate, 2.2);
@@ -220,8 +220,8 @@ TEST(PacketSteps, ABunchAfterAPauseIsNoJump) {
   }
 }
 
-// A hand that rests and then is elsewhere, at any rate; and also some packets after one was lost, when the way to the newest measurement takes two
-// intervals. What it may move is a fifth less than the first size, and more than the second.
+// A hand at rest that is suddenly elsewhere, at any rate; also some packets after a lost one, when the way to the newest measurement takes two
+// intervals. The allowed motion is a fifth less than the first size, and more than the second.
 TEST(PacketSteps, ATeleportIsAJumpAlsoAfterALoss) {
   for (const double rate : {30.0, 60.0, 90.0, 240.0}) {
     for (const int lost : {0, 1}) {

@@ -200,7 +200,7 @@ TEST(Protocol, TimeGoesOnWhereTheClockWraps) {
   EXPECT_NEAR(measurements.state(report).time - before, 32e-6, 1e-9);
 }
 
-// Half a round ahead is later, and more is earlier.
+// A number up to half of the range ahead counts as later, any other as earlier.
 TEST(Protocol, NumbersThatGoBackAndClocksThatStepBackAreWrong) {
   for (const std::uint32_t start : {1000u, 0u, 0xFFFFFFFFu}) {
     Measurements measurements(true);

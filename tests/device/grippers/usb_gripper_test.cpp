@@ -130,7 +130,7 @@ TEST(UsbGripper, AForceThatWaitedIsNotSentAfterAStall) {
   EXPECT_EQ(mock.outputs().back().arm, (std::array<std::int32_t, 3>{}));
 }
 
-// Nor after the zero of a signal handler or a second thread.
+// A waiting force is not sent after the zero of a signal handler or a second thread either.
 TEST(UsbGripper, AForceThatWaitedDoesNotFollowTheZeroOfAnotherThread) {
   for (const bool is_panic : {false, true}) {
     MockBench bench;
@@ -151,7 +151,7 @@ TEST(UsbGripper, AForceThatWaitedDoesNotFollowTheZeroOfAnotherThread) {
   }
 }
 
-// One that is slow is not yet an error: its next force waits. One that never takes any is, after ten.
+// A slow device is no error yet: the next force waits. A device that never takes a force is one, after ten.
 TEST(UsbGripper, ForceThatIsNotTakenIsAnError) {
   MockBench bench;
   UsbMock mock(bench);

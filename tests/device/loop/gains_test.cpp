@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nothing but loops.
+// Limits of gains against simulated loops.
 // sanitizers: none
 #include "device/loop/gains.h"
 
@@ -59,7 +59,7 @@ TEST(Gains, LimitsGrowWithTheRate) {
   }
 }
 
-// No user whom the guard has in mind shakes at what it lets pass.
+// At the guard's limit no user within its assumptions shakes.
 TEST(Gains, NoUsualUserShakesAtTheLimit) {
   const double limit = gain_limits(1000, 1).k_open;
   for (int reaction = 60; reaction <= 90; ++reaction) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nothing but loops.
+// The loop of a held grip against theory.
 // sanitizers: none
 #include "device/loop/grip_loop.h"
 
@@ -16,7 +16,7 @@ TEST(GripLoop, AnOrdinaryUserHolds) {
   EXPECT_EQ(result.outcome, GripOutcome::settles);
   EXPECT_GT(result.response_time, 0.075);
   EXPECT_LT(result.response_time, 1);
-  // what the torque adds is yielded to by the finger and the spring, until the user answers: at most all of it at once
+  // finger and spring yield to the torque's increase until the user answers: at most by all of it at once
   EXPECT_LT(result.opened, 3.0 / (500 + 600));
   EXPECT_GT(result.opened, 0);
 }

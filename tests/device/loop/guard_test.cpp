@@ -153,7 +153,7 @@ TEST(Guard, TheFirstMeasurementMayBeAnywhere) {
   EXPECT_EQ(guard.check(ReadOutcome::value, far, 0), Fault::none);
 }
 
-// What was refused is not what the next is compared with.
+// The guard does not compare the next measurement with a refused one.
 TEST(Guard, ARefusedMeasurementIsForgotten) {
   Guard guard(LiveData{}, limits_of(12, 8));
   EXPECT_EQ(guard.check(ReadOutcome::value, state_at(0), 0), Fault::none);
@@ -230,7 +230,7 @@ TEST(Guard, HoldsEveryLimitAgainstWildWishes) {
   EXPECT_GT(at_limit, 500);
 }
 
-// A device's own watchdog may have let go while nobody wrote: what comes then begins as at the start.
+// A device's own watchdog may have dropped the force while the loop stalled, so the force starts again from zero.
 TEST(Guard, AfterAStallItBeginsAtZeroAgain) {
   LiveData live;
   Guard guard(live, limits_of(12, 8));

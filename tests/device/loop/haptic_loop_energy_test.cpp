@@ -129,7 +129,7 @@ TEST(Energy, NeverGrowsAgainstAPassiveWall) {
   }
 }
 
-// The same watch sees a wall that is none: too stiff for its rate, the device gains energy.
+// The same check fails at a wall that is not passive: it is too stiff for its rate, and the device gains energy.
 TEST(Energy, GrowsAgainstAWallThatIsNotPassive) {
   LoopRig run;
   run.scene.live.stiffness = 2000;

@@ -69,7 +69,7 @@ TEST(HapticLoop, AfterAStallTheFirstForceIsZero) {
   }
 }
 
-// A measurement that was read before it belongs to the tick in which it is there.
+// A measurement read before the stall belongs to the tick in which it arrives.
 TEST(HapticLoop, TheTickAfterAStallHasTheClocksNumber) {
   LoopRig run;
   press_at_once(run);

@@ -43,7 +43,7 @@ TEST(PanicGuard, SaysWhatIsLeftOnADeviceThatTookNothing) {
   }
 }
 
-// What a signal handler must not do a second thread does.
+// A second thread does what a signal handler must not do.
 TEST(PanicGuard, TheWatchWritesWhatTheHandlerMustNot) {
   for (const bool is_exit : {false, true}) {
     SharedPanicLog log;

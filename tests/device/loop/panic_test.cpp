@@ -112,7 +112,7 @@ TEST(PanicGuard, HasAStackOfItsOwn) {
   expect_panic(outcome, *log, "SIGSEGV");
 }
 
-// The haptic thread's, too, if it has been given one.
+// The haptic thread's handler has a stack of its own too, if the thread sets one up.
 TEST(PanicGuard, AnotherThreadHasItsOwnStackToo) {
   SharedPanicLog log;
   const PanicOutcome outcome = run_in_child([&] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nothing but work on the tick path: no allocation, no lock, no system call besides the clock's and the device's own. Everything
-// between the calls of the device is watched, from the first touch to the slip.
+// The tick path only computes: no allocation, no lock, and no system call besides the clock's and the device's own. The tests watch
+// everything between device calls, from the first touch to the slip.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ LockFunction next_of(const char* name) {
 
 }  // namespace
 
-// The whole executable's, but they only count.
+// These replace the allocator of the whole executable, but they only count.
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
@@ -228,7 +228,7 @@ TEST(TickPath, TheWatchSeesALock) {
   EXPECT_EQ(seen.locks, seen.ticks);
 }
 
-// What it sends and takes is the kernel's; the rest of its calls is this program's own.
+// Sending and receiving happen in the kernel; this program makes the other calls.
 TEST(TickPath, AHandOverTheNetworkNeitherAllocatesNorLocks) {
   const Scene scene = live_scene();
   const OscPeer peer;

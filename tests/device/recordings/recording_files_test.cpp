@@ -132,7 +132,7 @@ TEST(Recording, OverwritesNothing) {
   EXPECT_THROW(check_recording_path(folder / ""), Error);
 }
 
-// What appears under the recording's name during the session is somebody's.
+// A file that appears under the recording's name during the session belongs to somebody else.
 TEST(Recording, WhatAppearsMeanwhileStays) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.nc";

@@ -282,7 +282,7 @@ TEST(HandView, TwoTipsHoldAsKernelSevenSays) {
   EXPECT_LT(least, 0.9) << "the other fingers help";
 }
 
-// No weight takes no effort, and smooth tips hold nothing that weighs: numbers all the same.
+// A weightless vessel takes no effort, and smooth tips hold no weight: both give numbers all the same.
 TEST(HandView, HoldsAtTheEdges) {
   Scene scene = scene_of({beaker1()});
   scene.strength.emplace();

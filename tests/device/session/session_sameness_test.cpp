@@ -85,7 +85,7 @@ TEST(Session, TheSameStatesGiveTheSameForcesToTheBit) {
   for (std::size_t k = 0; k < a.size(); ++k) expect_same_to_the_bit(a[k], b[k]);
 }
 
-// Ticks that are missed change neither the states that are gone through nor, beyond what a tick is long, what pours.
+// Missed ticks do not change which states a session goes through, nor, beyond the length of a tick, how much pours.
 TEST(Session, MissedTicksAreOnlyTime) {
   const Scene scene = live_scene();
   const LiveScript script = script_for(scene);

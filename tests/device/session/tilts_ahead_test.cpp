@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a held vessel will take at tilts to come: what it then takes in the session that goes there.
+// Predicted efforts of a held vessel at tilts to come, against the session that then goes there.
 // sanitizers: address
 #include "device/session/tilts_ahead.h"
 
@@ -65,7 +65,7 @@ TEST(TiltsAhead, AreWhatTheHandThenNeeds) {
   }
 }
 
-// From where it is on, and no further than to where the vessel is as good as empty.
+// The prediction starts at the present tilt and ends where the vessel is as good as empty.
 TEST(TiltsAhead, BeginAtThePresentTiltAndEndWhereItIsOut) {
   const Scene scene = strong_scene();
   const LiveScene live(scene);

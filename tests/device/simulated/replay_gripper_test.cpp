@@ -62,7 +62,7 @@ TEST(ReplayGripper, DictatesTheNumbersThatWereRecorded) {
   }
 }
 
-// A loop that does not let itself be dictated to gets what was recorded for its number, and nothing where nothing was.
+// A loop that keeps its own tick numbers gets the record of each number, and a timeout where there is none.
 TEST(ReplayGripper, HasNothingForTicksThatWereMissed) {
   const auto gripper = make_replay({recorded(3, 0.1), recorded(5, 0.2)}, some_limits());
   GripperState state;

@@ -301,7 +301,7 @@ TEST(SimGripper, PeopleDifferAndEachIsTheSameAgain) {
   EXPECT_NE(a.ticks.front().gap, b.ticks.front().gap) << "their hands open differently";
 }
 
-// Nobody differs from the mean person, and no grasp from another.
+// Every person equals the mean person, and all grasps are alike.
 TEST(SimGripper, WithoutScatterEverybodyIsOnePerson) {
   Scene one_vessel = beside_each_other(three_beakers());
   one_vessel.vessels.resize(1);

@@ -61,7 +61,7 @@ class ReportBrowser : public testing::Test {
     return std::regex_search(dom, found, std::regex("<html[^>]* " + name + "=\"([^\"]*)\"")) ? found[1].str() : "missing";
   }
 
-  // with [strength], as its page has every part that there is
+  // with [strength], so that the page has every part
   SweptScene swept{edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"), Precision::single};
   std::string browser, page;
 };

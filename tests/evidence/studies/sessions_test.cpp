@@ -93,7 +93,7 @@ TEST(Sessions, TheGripRisesByGainAndMargin) {
     const std::vector<GraspReport> grasps = sessions_of_person(scene, 1, 0, GOES_ON).grasps;
     ASSERT_EQ(grasps.size(), 2u);
     const double wanted = (gain / (1 - margin) - 1) * grasps[0].normal_increase;
-    // the weight that the liquid takes along changes the load by nothing, as it is the expected one; the response comes late
+    // the liquid's weight does not change the load, since it is the expected weight; the response comes late
     EXPECT_NEAR(grasps[0].grip_change, wanted, 0.03 + 0.1 * std::abs(wanted)) << gain;
   }
 }

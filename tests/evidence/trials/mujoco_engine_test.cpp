@@ -305,7 +305,7 @@ TEST_F(MujocoEngine, SixForcesEachFromAFreshStart) {
   }
 }
 
-// Before any grip is tried; another vessel of the same scene is taken.
+// The engine refuses the vessel before it tries any grip; it accepts another vessel of the same scene.
 TEST_F(MujocoEngine, AVesselWithoutAModelIsRefused) {
   Scene shells = scene_;
   shells.vessels[0].surface = Surface::shell;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The engine is loaded at run time, and nothing that it finds wrong goes unnoticed.
+// The engine is loaded at run time, and every problem that it finds is reported.
 // sanitizers: none
 #include "evidence/trials/mujoco.h"
 

@@ -151,7 +151,7 @@ void expect_hand_of_the_grip(const Scene& scene) {
   EXPECT_LT(farthest, 1e-6) << "m, at most: the closure is solved for anew";
 }
 
-// No file may be larger than that: its head fits or does not, or a tick of it.
+// A limit on the size of files stands for a full disk: it cuts the head, or the last tick.
 TEST(TrialRecording, ADiskThatIsFullIsNamedAndNothingIsLeft) {
   const TemporaryFolder folder;
   const Scene scene = shipped_beakers();

@@ -24,7 +24,8 @@ std::uint64_t numbered(const Plan& plan, std::array<std::uint64_t, 6> places) {
   return number;
 }
 
-// Keys for the best at the places of fake_scene's axes: 5 obliquities, 4 rolls, 2 offsets, 1 hand scale, 7 heights.
+// Keys that the sweep names when the best grip is at these places of fake_scene's axes: 5 obliquities, 4 rolls, 2 offsets, 1 hand
+// scale, 7 heights.
 Keys keys_at(const Scene& scene, std::array<std::uint64_t, 6> places) {
   const Plan plan(scene, false);
   return edge_axes(scene, plan, 0, {{0.9, numbered(plan, places)}, {0.5, 0}});
