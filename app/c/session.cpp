@@ -131,7 +131,7 @@ wh_status wh_session_vessel_at(wh_session* session, size_t index, wh_session_ves
   const bool has_stepped = session->last >= 0;
   own.volume = has_stepped ? session->tick.volume[index] : session->session.live().vessels[index].volume;
   own.arrived = session->tick.arrived[index];
-  own.spilt = session->tick.spilt[index];
+  own.spilled = session->tick.spilled[index];
   give_back(own, vessel);
   return WH_OK;
 }

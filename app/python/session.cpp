@@ -203,8 +203,8 @@ void bind_step(py::module_& module) {
           "arrived", [](const Step& step) { return step.of_vessels(step.tick.arrived); },
           "Liquid of each vessel that has arrived in the target, m3, in the order of scene.vessels.")
       .def_property_readonly(
-          "spilt", [](const Step& step) { return step.of_vessels(step.tick.spilt); },
-          "Liquid of each vessel that was spilt, m3, in the order of scene.vessels.")
+          "spilled", [](const Step& step) { return step.of_vessels(step.tick.spilled); },
+          "Liquid of each vessel that was spilled, m3, in the order of scene.vessels.")
       .def_property_readonly(
           "target_volume", [](const Step& step) { return target_volume(step.session->live().scene, step.tick); },
           "Liquid in the target of the task, of all vessels together, m3; 0 without a task.")

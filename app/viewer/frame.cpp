@@ -193,7 +193,7 @@ std::string frame_json(const ViewFrame& frame) {
     out.number(k > 0 ? ",{\"arrived\":" : "{\"arrived\":", frame.arrived[k]);
     out.text("}");
   }
-  out.number("],\"spilt\":", frame.spilt);
+  out.number("],\"spilled\":", frame.spilled);
   out.number(",\"target_volume\":", frame.target_volume);
   out.text(",\"guidance\":");
   out.whole(frame.guidance);
@@ -238,7 +238,7 @@ ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const Han
   frame.weight = tick.weight;
   frame.torque = tick.torque;
   for (const MixedAmount& amount : mixing_board(scene, tick)) frame.arrived.push_back(amount.arrived);
-  frame.spilt = total_spilt(scene, tick);
+  frame.spilled = total_spilled(scene, tick);
   frame.target_volume = target_volume(scene, tick);
   frame.guidance = tick.guidance;
   frame.is_done = tick.task_done;

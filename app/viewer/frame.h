@@ -60,7 +60,7 @@ struct ViewFrame {
   // has it, else two tips'. JSON has null for infinite or absent values, and marks an infinite hold force.
   double feedback = 0, written = Tick::NONE, base = 0, normal = 0, opening = 0, user = 0, hold = Tick::NONE, weight = 0, torque = 0;
   std::vector<double> arrived;  // of each amount that the task wants, m3
-  double spilt = 0, target_volume = 0;
+  double spilled = 0, target_volume = 0;
   std::optional<FrameAdvice> advice;  // absent: advice is off, or no vessel is near
   int guidance = -1;                  // modulo each vessel's count
   bool is_done = false;

@@ -169,7 +169,7 @@ void OscStream::put_task(const Tick& tick) noexcept {
     const auto& [liquid, wanted] = scene.task->amounts[k];
     put(amounts_[k], {number(total_arrived(scene, tick, liquid)), number(wanted)});
   }
-  put("/wholehand/task/spilt", {number(total_spilt(scene, tick))});
+  put("/wholehand/task/spilled", {number(total_spilled(scene, tick))});
   put("/wholehand/task/guidance", {static_cast<std::int32_t>(tick.guidance)});
   put("/wholehand/task/done", {tick.task_done ? 1 : 0});
 }

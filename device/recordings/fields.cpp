@@ -101,7 +101,7 @@ std::vector<RecordedField> make_recorded_fields() {
       reals("liquid_volume", "m3", "volume of the liquid in the vessel", NOT_SAID, "vessel", offsetof(Tick, volume)),
       reals("arrived_volume", "m3", "volume of the vessel's liquid that arrived in the target", NOT_SAID, "vessel",
             offsetof(Tick, arrived)),
-      reals("spilt_volume", "m3", "volume of the vessel's liquid that was spilt", NOT_SAID, "vessel", offsetof(Tick, spilt)),
+      reals("spilled_volume", "m3", "volume of the vessel's liquid that was spilled", NOT_SAID, "vessel", offsetof(Tick, spilled)),
       real_one("flow", "m3 s-1", "flow over the held vessel's lip", NOT_SAID, offsetof(Tick, flow)),
       // ---- forces ----
       reals("coupling_force", "N", "force of the surface on each tip before the grasp, world frame", NOT_SAID, "contact xyz",

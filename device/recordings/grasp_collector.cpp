@@ -18,7 +18,7 @@ void add_saturation(GraspReport& grasp, std::span<const Tick> held, double rate,
     while_tilting = while_tilting || held[k].state != SessionState::lift;
   }
   grasp.saturated = static_cast<double>(periods) / rate;
-  if (while_tilting) grasp.course = GripCourse::not_analysed;
+  if (while_tilting) grasp.course = GripCourse::not_analyzed;
 }
 
 }  // namespace
@@ -35,16 +35,16 @@ void GraspCollector::add(const Tick& tick) {
     }
   }
   if (is_held_now && tick.vessel >= 0) {
-    if (held_.empty()) close_liquid(tick.vessel, tick.arrived, tick.spilt);
+    if (held_.empty()) close_liquid(tick.vessel, tick.arrived, tick.spilled);
     held_.push_back(tick);
   }
   arrived_ = tick.arrived;
-  spilt_ = tick.spilt;
+  spilled_ = tick.spilled;
 }
 
 std::vector<GraspReport> GraspCollector::finish() {
   if (!held_.empty()) report(behind_ ? outcome_without_loss() : GraspOutcome::recording_ends);
-  for (int vessel = 0; vessel < LIVE_VESSELS; ++vessel) close_liquid(vessel, arrived_, spilt_);
+  for (int vessel = 0; vessel < LIVE_VESSELS; ++vessel) close_liquid(vessel, arrived_, spilled_);
   return std::move(grasps_);
 }
 
@@ -58,19 +58,19 @@ void GraspCollector::report(GraspOutcome outcome) {
   grasp.outcome = outcome;
   add_saturation(grasp, held_, rate_, force_max_);
   const auto vessel = static_cast<std::size_t>(grasp.vessel);
-  pouring_[vessel] = {grasps_.size(), held_.front().arrived[vessel], held_.front().spilt[vessel]};
+  pouring_[vessel] = {grasps_.size(), held_.front().arrived[vessel], held_.front().spilled[vessel]};
   grasps_.push_back(grasp);
   held_.clear();
   behind_.reset();
 }
 
 // Counts what arrived and was spilled until now for the vessel's latest grasp, because liquid is still in the air when a grasp ends.
-void GraspCollector::close_liquid(int vessel, const Volumes& arrived, const Volumes& spilt) {
+void GraspCollector::close_liquid(int vessel, const Volumes& arrived, const Volumes& spilled) {
   const auto v = static_cast<std::size_t>(vessel);
   if (!pouring_[v]) return;
   GraspReport& grasp = grasps_[pouring_[v]->grasp];
   grasp.arrived = arrived[v] - pouring_[v]->arrived;
-  grasp.spilt = spilt[v] - pouring_[v]->spilt;
+  grasp.spilled = spilled[v] - pouring_[v]->spilled;
   pouring_[v].reset();
 }
 

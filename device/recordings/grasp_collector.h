@@ -28,19 +28,19 @@ class GraspCollector {
   using Volumes = std::array<double, LIVE_VESSELS>;  // m3
   // A grasp whose liquid may still be in the air.
   struct Pouring {
-    std::size_t grasp = 0;          // in grasps_
-    double arrived = 0, spilt = 0;  // before it, m3
+    std::size_t grasp = 0;            // in grasps_
+    double arrived = 0, spilled = 0;  // before it, m3
   };
 
   void report(GraspOutcome outcome);
   GraspOutcome outcome_without_loss() const;
-  void close_liquid(int vessel, const Volumes& arrived, const Volumes& spilt);
+  void close_liquid(int vessel, const Volumes& arrived, const Volumes& spilled);
 
   double rate_, force_max_;
   std::vector<Tick> held_;              // of the grasp in progress, or whose outcome is still open; empty: none
   std::optional<SessionState> behind_;  // state of the tick after these; absent: the grasp goes on
   std::array<std::optional<Pouring>, LIVE_VESSELS> pouring_;  // the latest grasp of each vessel
-  Volumes arrived_{}, spilt_{};                               // at the last tick
+  Volumes arrived_{}, spilled_{};                             // at the last tick
   std::vector<GraspReport> grasps_;
 };
 

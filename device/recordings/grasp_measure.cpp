@@ -138,8 +138,8 @@ double change_over(std::span<const Tick> held, double Tick::*member, const TiltW
 }
 
 GripCourse course_of(const GraspReport& grasp) {
-  if (!(grasp.largest_tilt >= LEAST_ANALYSED) || !std::isfinite(grasp.grip_change) || !std::isfinite(grasp.normal_increase))
-    return GripCourse::not_analysed;
+  if (!(grasp.largest_tilt >= LEAST_ANALYZED) || !std::isfinite(grasp.grip_change) || !std::isfinite(grasp.normal_increase))
+    return GripCourse::not_analyzed;
   if (grasp.turning_back > EQUAL_FORCE) return GripCourse::complex;
   const double difference = grasp.grip_change - grasp.normal_increase;
   if (std::abs(difference) < EQUAL_FORCE) return GripCourse::equal;

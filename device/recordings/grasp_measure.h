@@ -17,7 +17,7 @@ constexpr double RESPONSE_CALM = 50e-3;         // s: if it stays so for this lo
 constexpr double SPEED_WINDOW = 20e-3;          // s: window of the line fit whose slope is the gap's speed
 constexpr double COURSE_WINDOW = 0.2;           // s: averaging window of forces before their courses are compared
 constexpr double EQUAL_FORCE = 0.1;             // N: a smaller difference counts as none
-constexpr double LEAST_ANALYSED = radians(30);  // a grasp that is tilted less is not analyzed
+constexpr double LEAST_ANALYZED = radians(30);  // a grasp that is tilted less is not analyzed
 constexpr double MAINTAIN_CHANGE = radians(5);  // a tilt that changes less counts as maintained
 
 struct MeanDeviation {
@@ -37,7 +37,7 @@ class MeanSum {
 };
 
 // The course of the user's grip force over a tilt, compared with the rise of the normal force.
-enum class GripCourse : std::uint8_t { not_analysed, equal, more, less, complex };
+enum class GripCourse : std::uint8_t { not_analyzed, equal, more, less, complex };
 constexpr int GRIP_COURSES = 5;
 extern const std::array<const char*, GRIP_COURSES> GRIP_COURSE_NAMES;  // "", "G1", .. "G4"
 
@@ -60,11 +60,11 @@ struct GraspReport {
   double grip_change = Tick::NONE;      // of the user's grip force over it, N
   double turning_back = Tick::NONE;     // how far the grip force goes both up and down, beyond what the normal force does, N
   double saturated = 0;                 // time with the feedback at F_max, s; while tilted: the course is not analyzed
-  GripCourse course = GripCourse::not_analysed;
+  GripCourse course = GripCourse::not_analyzed;
   GraspOutcome outcome = GraspOutcome::let_go;
   double guidance_distance = Tick::NONE;  // m
   double poured = 0;                      // over the lip during the grasp, m3
-  double arrived = 0, spilt = 0;          // until the vessel's next grasp, m3
+  double arrived = 0, spilled = 0;        // until the vessel's next grasp, m3
 };
 
 // The results that the ticks of one grasp (held, of one vessel, at least one) give by themselves: all but outcome, arrived and spilled. `rate` in Hz.

@@ -26,7 +26,7 @@ SessionJson percentiles_json(const Percentiles& value) {
 }
 
 SessionJson course_json(GripCourse course) {
-  return course == GripCourse::not_analysed ? SessionJson(nullptr)
+  return course == GripCourse::not_analyzed ? SessionJson(nullptr)
                                             : SessionJson(GRIP_COURSE_NAMES[static_cast<std::size_t>(course)]);
 }
 
@@ -53,7 +53,7 @@ SessionJson grasp_json(const SessionReport& report, const GraspReport& grasp) {
   json["guidance_distance_m"] = number_or_null(grasp.guidance_distance);
   json["poured_m3"] = number_or_null(grasp.poured);
   json["arrived_m3"] = number_or_null(grasp.arrived);
-  json["spilt_m3"] = number_or_null(grasp.spilt);
+  json["spilled_m3"] = number_or_null(grasp.spilled);
   return json;
 }
 
@@ -63,7 +63,7 @@ SessionJson summary_json(const GraspSummary& summary) {
   json["grasps"] = summary.grasps;
   json["lost"] = summary.lost;
   for (std::size_t k = 1; k < summary.courses.size(); ++k) json["types"][GRIP_COURSE_NAMES[k]] = summary.courses[k];
-  json["not_analysed"] = summary.courses[0];
+  json["not_analyzed"] = summary.courses[0];
   json["response_time_s"] = mean_json(summary.response_time);
   json["grip_stopped_N"] = mean_json(summary.tightened);
   json["grip_before_N"] = mean_json(summary.before);
@@ -79,7 +79,7 @@ SessionJson amount_json(const PouredAmount& amount) {
   return {{"liquid", amount.liquid},
           {"wanted_m3", number_or_null(amount.wanted)},
           {"arrived_m3", number_or_null(amount.arrived)},
-          {"spilt_m3", number_or_null(amount.spilt)},
+          {"spilled_m3", number_or_null(amount.spilled)},
           {"within_tolerance", amount.is_within}};
 }
 

@@ -57,7 +57,7 @@ GraspSummary summarize(const std::vector<GraspReport>& grasps, int vessel, const
     before.add(grasp.before.mean);
     during.add(grasp.during.mean);
     after.add(grasp.after.mean);
-    if (grasp.course == GripCourse::not_analysed) continue;
+    if (grasp.course == GripCourse::not_analyzed) continue;
     normal.add(grasp.normal_increase);
     change.add(grasp.grip_change);
     time.add(grasp.tilt_time);
@@ -83,10 +83,10 @@ std::vector<PouredAmount> amounts_of(const RecordingInfo& info, const Tick& last
     return amounts.back();
   };
   for (std::size_t v = 0; v < info.vessels.size(); ++v) {
-    if (info.vessels[v].liquid.empty() && last.arrived[v] == 0 && last.spilt[v] == 0) continue;
+    if (info.vessels[v].liquid.empty() && last.arrived[v] == 0 && last.spilled[v] == 0) continue;
     PouredAmount& amount = of(info.vessels[v].liquid);
     amount.arrived += last.arrived[v];
-    amount.spilt += last.spilt[v];
+    amount.spilled += last.spilled[v];
   }
   for (const RecordedAmount& wanted : info.amounts) of(wanted.liquid).wanted = wanted.volume;
   for (PouredAmount& amount : amounts) amount.is_within = std::abs(amount.arrived - amount.wanted) <= info.tolerance;

@@ -29,9 +29,9 @@ struct GraspSummary {
 
 struct PouredAmount {
   std::string liquid;
-  double wanted = Tick::NONE;     // m3; NaN: the task does not ask for it
-  double arrived = 0, spilt = 0;  // m3
-  bool is_within = false;         // the task's tolerance
+  double wanted = Tick::NONE;       // m3; NaN: the task does not ask for it
+  double arrived = 0, spilled = 0;  // m3
+  bool is_within = false;           // the task's tolerance
 };
 
 struct SessionReport {

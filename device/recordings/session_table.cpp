@@ -23,7 +23,7 @@ std::string shown(const MeanDeviation& value, double unit, int digits) {
 }
 
 const char* shown_course(GripCourse course) {
-  return course == GripCourse::not_analysed ? "-" : GRIP_COURSE_NAMES[static_cast<std::size_t>(course)];
+  return course == GripCourse::not_analyzed ? "-" : GRIP_COURSE_NAMES[static_cast<std::size_t>(course)];
 }
 
 // A table whose columns are as wide as what is in them; the first to the left, the others to the right. Only the last cells of a row may be
@@ -74,7 +74,7 @@ void write_grasps(std::string& out, const SessionReport& report) {
   append_formatted(out, "\nGrasps: times in s, response in ms, forces in N, tilt in degrees, distance in mm, volumes in mL\n");
   ColumnTable table;
   table.row({"vessel", "start", "lift", "tilt", "maintain", "response", "stopped", "before", "during", "after", "largest tilt",
-             "normal rise", "grip change", "type", "guidance", "poured", "arrived", "spilt", "end"});
+             "normal rise", "grip change", "type", "guidance", "poured", "arrived", "spilled", "end"});
   for (const GraspReport& grasp : report.grasps) {
     table.row({report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, shown(grasp.start, 1, 3),
                shown(grasp.duration[0], 1, 3), shown(grasp.duration[1], 1, 3), shown(grasp.duration[2], 1, 3),
@@ -82,7 +82,7 @@ void write_grasps(std::string& out, const SessionReport& report) {
                shown(grasp.during, 1, 2), shown(grasp.after, 1, 2), shown(degrees(grasp.largest_tilt), 1, 1),
                shown(grasp.normal_increase, 1, 2), shown(grasp.grip_change, 1, 2), shown_course(grasp.course),
                shown(grasp.guidance_distance, 1e-3, 1), shown(grasp.poured, 1e-6, 1), shown(grasp.arrived, 1e-6, 1),
-               shown(grasp.spilt, 1e-6, 1), GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)]});
+               shown(grasp.spilled, 1e-6, 1), GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)]});
   }
   table.write(out);
   for (const GraspReport& grasp : report.grasps) {
@@ -111,10 +111,10 @@ void write_amounts(std::string& out, const SessionReport& report) {
   if (report.amounts.empty()) return;
   append_formatted(out, "\n");
   ColumnTable table;
-  table.row({"liquid", "arrived mL", "spilt mL", "wanted mL", ""});
+  table.row({"liquid", "arrived mL", "spilled mL", "wanted mL", ""});
   for (const PouredAmount& amount : report.amounts) {
     const bool is_wanted = std::isfinite(amount.wanted);
-    table.row({amount.liquid.empty() ? "(no name)" : amount.liquid, shown(amount.arrived, 1e-6, 2), shown(amount.spilt, 1e-6, 2),
+    table.row({amount.liquid.empty() ? "(no name)" : amount.liquid, shown(amount.arrived, 1e-6, 2), shown(amount.spilled, 1e-6, 2),
                shown(amount.wanted, 1e-6, 2),
                !is_wanted         ? ""
                : amount.is_within ? "within tolerance"
@@ -166,7 +166,7 @@ std::string grasps_csv(const SessionReport& report) {
   std::string csv =
       "grasp,vessel,start_s,end_s,lift_s,tilt_s,maintain_s,response_time_s,grip_stopped_N,grip_before_N,grip_before_deviation_N,"
       "grip_during_N,grip_during_deviation_N,grip_after_N,grip_after_deviation_N,largest_tilt_deg,tilt_start_s,tilt_time_s,"
-      "normal_increase_N,grip_change_N,turning_back_N,saturated_s,type,guidance_distance_mm,poured_ml,arrived_ml,spilt_ml,"
+      "normal_increase_N,grip_change_N,turning_back_N,saturated_s,type,guidance_distance_mm,poured_ml,arrived_ml,spilled_ml,"
       "outcome\n";
   for (std::size_t k = 0; k < report.grasps.size(); ++k) {
     const GraspReport& grasp = report.grasps[k];
@@ -194,7 +194,7 @@ std::string grasps_csv(const SessionReport& report) {
       csv += "," + csv_number(value);
     csv += fmt::format(",{},{},{},{},{},{}\n", GRIP_COURSE_NAMES[static_cast<std::size_t>(grasp.course)],
                        csv_number(grasp.guidance_distance, 1e-3), csv_number(grasp.poured, 1e-6), csv_number(grasp.arrived, 1e-6),
-                       csv_number(grasp.spilt, 1e-6), GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)]);
+                       csv_number(grasp.spilled, 1e-6), GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)]);
   }
   return csv;
 }

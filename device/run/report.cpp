@@ -135,8 +135,8 @@ std::string live_text(const LiveSummary& summary) {
     text += fmt::format(", destinations {}; {}", last.destinations, last.task_done ? "the task is done" : "the task is not done");
   text += "\n";
   if (summary.scene.task) {
-    text += fmt::format("  amounts    {}; spilt {:.1f} mL\n", board(mixing_board(summary.scene, last)),
-                        total_spilt(summary.scene, last) * ML);
+    text += fmt::format("  amounts    {}; spilled {:.1f} mL\n", board(mixing_board(summary.scene, last)),
+                        total_spilled(summary.scene, last) * ML);
   }
   if (summary.has_clock) {
     text += fmt::format("  period     {}; missed {}\n", percentiles(loop.period), readable_number(loop.missed));
@@ -169,9 +169,9 @@ std::string live_json(const LiveSummary& summary) {
   json["amounts"] = nlohmann::ordered_json::array();
   for (const MixedAmount& amount : mixing_board(summary.scene, last)) {
     json["amounts"].push_back(
-        {{"liquid", amount.liquid}, {"arrived_m3", amount.arrived}, {"wanted_m3", amount.wanted}, {"spilt_m3", amount.spilt}});
+        {{"liquid", amount.liquid}, {"arrived_m3", amount.arrived}, {"wanted_m3", amount.wanted}, {"spilled_m3", amount.spilled}});
   }
-  json["spilt_m3"] = total_spilt(summary.scene, last);
+  json["spilled_m3"] = total_spilled(summary.scene, last);
   if (summary.has_clock) {
     json["period_s"] = percentiles_json(loop.period);
     json["latency_s"] = percentiles_json(loop.latency);

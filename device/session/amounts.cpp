@@ -3,10 +3,10 @@
 
 namespace wholehand {
 
-double total_spilt(const Scene& scene, const Tick& tick) {
-  double spilt = 0;
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) spilt += tick.spilt[v];
-  return spilt;
+double total_spilled(const Scene& scene, const Tick& tick) {
+  double spilled = 0;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) spilled += tick.spilled[v];
+  return spilled;
 }
 
 double total_arrived(const Scene& scene, const Tick& tick, std::string_view liquid) {
@@ -22,7 +22,7 @@ std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick) {
   for (const auto& [liquid, wanted] : scene.task->amounts) {
     MixedAmount amount{liquid, total_arrived(scene, tick, liquid), wanted, 0};
     for (std::size_t v = 0; v < scene.vessels.size(); ++v)
-      if (scene.vessels[v].liquid_name == liquid) amount.spilt += tick.spilt[v];
+      if (scene.vessels[v].liquid_name == liquid) amount.spilled += tick.spilled[v];
     amounts.push_back(amount);
   }
   return amounts;

@@ -14,11 +14,11 @@ namespace wholehand {
 // The paper's mixing board: the volume in the target of each liquid that a task wants, m3.
 struct MixedAmount {
   std::string liquid;
-  double arrived = 0, wanted = 0, spilt = 0;
+  double arrived = 0, wanted = 0, spilled = 0;
 };
 std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick);
 // m3: of a liquid in the target, and spilled from all vessels. They allocate nothing.
 double total_arrived(const Scene& scene, const Tick& tick, std::string_view liquid);
-double total_spilt(const Scene& scene, const Tick& tick);
+double total_spilled(const Scene& scene, const Tick& tick);
 
 }  // namespace wholehand

@@ -27,7 +27,7 @@ double Pouring::pour(int vessel, double held_back, core_f64::Vec3 lip, std::int6
     fall = std::min(LONGEST_FALL, gravity_ > 0 ? std::sqrt(2 * std::max(0.0, height) / gravity_) : LONGEST_FALL);
   }
   if (!hits || count_ == falling_.size()) {
-    spilt_[vessel] += leaves;
+    spilled_[vessel] += leaves;
     return flow;
   }
   falling_[(first_ + count_) % falling_.size()] = {number + static_cast<std::int64_t>(std::lround(fall * rate_)), vessel, leaves};

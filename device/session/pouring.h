@@ -28,7 +28,7 @@ class Pouring {
 
   double volume(int vessel) const noexcept { return volume_[vessel]; }    // m3
   double arrived(int vessel) const noexcept { return arrived_[vessel]; }  // of that vessel's liquid in the target, m3
-  double spilt(int vessel) const noexcept { return spilt_[vessel]; }      // m3
+  double spilled(int vessel) const noexcept { return spilled_[vessel]; }  // m3
 
  private:
   struct Drop {
@@ -36,7 +36,7 @@ class Pouring {
     int vessel = 0;
     double volume = 0;
   };
-  std::array<double, LIVE_VESSELS> volume_{}, arrived_{}, spilt_{};
+  std::array<double, LIVE_VESSELS> volume_{}, arrived_{}, spilled_{};
   std::optional<TaskData> task_;
   double gravity_, rate_;
   std::vector<Drop> falling_;  // a ring: `first_` lands first, or waits for those before it

@@ -76,7 +76,7 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
   for (int v = 0; v < obstacles_.count; ++v) {
     tick.volume[v] = pouring_.volume(v);
     tick.arrived[v] = pouring_.arrived(v);
-    tick.spilt[v] = pouring_.spilt(v);
+    tick.spilled[v] = pouring_.spilled(v);
   }
   const int done = tasks_done();
   tick.guidance = live_->scene.task ? done : -1;

@@ -92,7 +92,7 @@ struct Tick {
   double guidance_distance = NONE;        // of this grasp, m
 
   // ---- liquid, by vessel, m3: in it, arrived in the target, spilled; the rest of the sum is in the air ----
-  std::array<double, LIVE_VESSELS> volume{}, arrived{}, spilt{};
+  std::array<double, LIVE_VESSELS> volume{}, arrived{}, spilled{};
   double flow = 0;  // over the held vessel's lip, m3/s
 
   // ---- forces, N ----

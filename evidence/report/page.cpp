@@ -85,7 +85,7 @@ void write_words(MarkupWriter& html, const Scene& scene, bool has_efforts) {
        fmt::format("a point or a bone of the hand would be deeper in the vessel, or a finger in another, than the scene "
                    "allows{}{}",
                    scene.table ? ", or the hand would go through the table" : "",
-                   scene.arm ? ", or no arm would bring the hand there within the ranges of its wrist" : "")
+                   scene.arm ? ", or wrist and forearm do not reach the hand within their ranges" : "")
            .c_str());
   word("antipodal", "both contacts lie within the friction cone");
   word("fingers, points", "number of fingers used, of 5; number of points of the hand that touch, of 24");

@@ -19,8 +19,8 @@ constexpr double NO_VALUE = std::numeric_limits<double>::quiet_NaN();
 using Number = double (*)(const GraspReport&);
 
 inline double counted_if(bool counts, double value) { return counts ? value : NO_VALUE; }
-inline bool is_tilted(const GraspReport& grasp) { return grasp.largest_tilt >= LEAST_ANALYSED; }
-inline bool is_analysed(const GraspReport& grasp) { return grasp.course != GripCourse::not_analysed; }
+inline bool is_tilted(const GraspReport& grasp) { return grasp.largest_tilt >= LEAST_ANALYZED; }
+inline bool is_analyzed(const GraspReport& grasp) { return grasp.course != GripCourse::not_analyzed; }
 inline bool is_maintained(const GraspReport& grasp) { return is_tilted(grasp) && std::isfinite(grasp.after_at_first); }
 
 inline double response_time(const GraspReport& grasp) { return grasp.response_time; }
@@ -33,16 +33,16 @@ inline double grip_after(const GraspReport& grasp) { return counted_if(is_tilted
 inline double maintained_time(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.duration[2]); }
 inline double is_hard(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.after_at_first > HARD_GRIP); }
 inline double is_soft(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.after_at_first < SOFT_GRIP); }
-inline double normal_increase(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.normal_increase); }
-inline double grip_change(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.grip_change); }
+inline double normal_increase(const GraspReport& grasp) { return counted_if(is_analyzed(grasp), grasp.normal_increase); }
+inline double grip_change(const GraspReport& grasp) { return counted_if(is_analyzed(grasp), grasp.grip_change); }
 inline double has_tilt(const GraspReport& grasp) { return is_tilted(grasp) ? 1 : 0; }
-inline double has_type(const GraspReport& grasp) { return counted_if(is_tilted(grasp), is_analysed(grasp)); }
+inline double has_type(const GraspReport& grasp) { return counted_if(is_tilted(grasp), is_analyzed(grasp)); }
 inline double is_saturated(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.saturated > 0); }
-inline double is_rising(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.grip_change > 0); }
-inline double is_falling(const GraspReport& grasp) { return counted_if(is_analysed(grasp), !(grasp.grip_change > 0)); }
+inline double is_rising(const GraspReport& grasp) { return counted_if(is_analyzed(grasp), grasp.grip_change > 0); }
+inline double is_falling(const GraspReport& grasp) { return counted_if(is_analyzed(grasp), !(grasp.grip_change > 0)); }
 template <GripCourse COURSE>
 double has_course(const GraspReport& grasp) {
-  return counted_if(is_analysed(grasp), grasp.course == COURSE);
+  return counted_if(is_analyzed(grasp), grasp.course == COURSE);
 }
 
 }  // namespace of_grasp

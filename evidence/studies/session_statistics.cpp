@@ -88,7 +88,7 @@ const std::array<OfVessel, 18> OF_VESSEL{{
     {{"rising_share", Summary::mean, is_rising}},
     {{"lost_share", Summary::mean, is_lost}},
     {{"tilted_share", Summary::mean, has_tilt}},
-    {{"analysed_share", Summary::mean, has_type}},
+    {{"analyzed_share", Summary::mean, has_type}},
     {{"saturated_share", Summary::mean, is_saturated}},
 }};
 

@@ -13,14 +13,11 @@ namespace {
 
 constexpr std::uint64_t GRASPS_OF_SESSION = 1000;  // numbers of a session's grasps, so that the next one has others
 
-constexpr std::array<double GraspReport::*, 16> GRASP_REALS{&GraspReport::after_at_first, &GraspReport::spilt,
-                                                            &GraspReport::start,          &GraspReport::end,
-                                                            &GraspReport::response_time,  &GraspReport::tightened,
-                                                            &GraspReport::largest_tilt,   &GraspReport::tilt_start,
-                                                            &GraspReport::tilt_time,      &GraspReport::normal_increase,
-                                                            &GraspReport::grip_change,    &GraspReport::turning_back,
-                                                            &GraspReport::saturated,      &GraspReport::guidance_distance,
-                                                            &GraspReport::poured,         &GraspReport::arrived};
+constexpr std::array<double GraspReport::*, 16> GRASP_REALS{
+    &GraspReport::after_at_first, &GraspReport::spilled,           &GraspReport::start,        &GraspReport::end,
+    &GraspReport::response_time,  &GraspReport::tightened,         &GraspReport::largest_tilt, &GraspReport::tilt_start,
+    &GraspReport::tilt_time,      &GraspReport::normal_increase,   &GraspReport::grip_change,  &GraspReport::turning_back,
+    &GraspReport::saturated,      &GraspReport::guidance_distance, &GraspReport::poured,       &GraspReport::arrived};
 constexpr std::array<MeanDeviation GraspReport::*, 3> GRASP_MEANS{&GraspReport::before, &GraspReport::during, &GraspReport::after};
 
 }  // namespace

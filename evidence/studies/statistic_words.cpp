@@ -26,7 +26,7 @@ constexpr std::array<StatisticWords, 16> WHOLE_WORDS{{
     {"rising_share", "grip rises over the tilt"},
     {"falling_share", "grip does not rise over the tilt"},
     {"tilted_share", "tilted by 30 degrees or more"},
-    {"analysed_share", "of these, with a type"},
+    {"analyzed_share", "of these, with a type"},
     {"saturated_share", "of these, at F_max"},
     {"people_with_grasps_share", "people who grasped"},
     {"whole_sessions_share", "sessions that ended by themselves"},

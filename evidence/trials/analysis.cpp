@@ -316,7 +316,7 @@ std::optional<WeightTrial> weights_by_trials(const Scene& scene, const TriedGrip
   return try_weights(grips, effective_weights(scene), seed, std::max<std::size_t>(placements, 1));
 }
 
-ScatterAnalysis analyse_scatter(const Scene& scene, const TriedGrips& tried, const TrialOptions& options) {
+ScatterAnalysis analyze_scatter(const Scene& scene, const TriedGrips& tried, const TrialOptions& options) {
   ScatterAnalysis analysis;
   analysis.rows = scatter_rows(scene, tried);
   for (const TrialSample sample : {TrialSample::stratified, TrialSample::best}) {
@@ -382,7 +382,7 @@ std::vector<Prediction> scatter_predictions(const TriedGrips& tried, TrialSample
   return predictions;
 }
 
-TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const TrialOptions& options) {
+TrialAnalysis analyze_trials(const Scene& scene, const TriedGrips& tried, const TrialOptions& options) {
   TrialAnalysis analysis;
   analysis.groups = groups_of(tried, options);
   for (const TrialGroup& group : analysis.groups) {
@@ -396,7 +396,7 @@ TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const 
   }
   analysis.pushed = pushed_of(analysis.grips);
   if (options.fill_tilt) analysis.weights = weights_by_trials(scene, tried, options.seed, 0);
-  if (options.scatter > 0) analysis.scatter = analyse_scatter(scene, tried, options);
+  if (options.scatter > 0) analysis.scatter = analyze_scatter(scene, tried, options);
   if (options.fill_tilt) analysis.bars = bars_of(scene, tried, analysis);
   analysis.disagreements = find_disagreements(tried);
   return analysis;

@@ -153,7 +153,7 @@ struct TrialAnalysis {
   std::vector<Disagreement> disagreements;  // the worst first, at most MOST_DISAGREEMENTS
 };
 
-TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const TrialOptions& options);
+TrialAnalysis analyze_trials(const Scene& scene, const TriedGrips& tried, const TrialOptions& options);
 
 // ---- words ----
 

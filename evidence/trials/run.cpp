@@ -282,7 +282,7 @@ class Trials {
   // Renames the files once all are complete. The journal is removed after that, so --resume repairs a kill during the renames. False: stopped before
   // the first of them.
   bool write_files(const TrialFiles& files, const TrialIdentity& identity, const std::atomic<bool>& stop) {
-    const TrialAnalysis analysis = analyse_trials(scene_, tried_, options_);
+    const TrialAnalysis analysis = analyze_trials(scene_, tried_, options_);
     std::vector<ShownDisagreement> shown;
     FileSet set;
     try {

@@ -171,7 +171,7 @@ public unsafe struct SessionVessel {
   public UIntPtr Size;
   public fixed double Place[3];
   public fixed double Rotation[9];
-  public double Volume, Arrived, Spilt;
+  public double Volume, Arrived, Spilled;
   public static SessionVessel Create() { return new SessionVessel { Size = (UIntPtr)sizeof(SessionVessel) }; }
   public Point PlaceUnity { get { fixed (double* place = Place) return Native.PointOf(place, 0).FlippedUnity(); } }
   public Turn TurnUnity { get { fixed (double* rotation = Rotation) return Turn.OfRotation(rotation).FlippedUnity(); } }

@@ -64,7 +64,7 @@ void write_closing(std::string& out, const GripReport& report) {
   append_formatted(out, "  plausible      {}: phalanges {} deep, palm {}{}\n", yes_no(r.plausible),
                    millimeters(report, r.phalanx_depth), millimeters(report, r.palm_depth),
                    fmt::format("{}{}", r.through_table ? "; the hand goes through the table" : "",
-                               r.beyond_wrist ? "; no arm reaches it within the ranges of its wrist" : ""));
+                               r.beyond_wrist ? "; wrist and forearm do not reach it within their ranges" : ""));
   if (!std::isnan(r.table_depth)) {
     append_formatted(out, "  table          {} {} the table and its clearance\n", millimeters(report, std::abs(r.table_depth)),
                      r.through_table ? "below" : "above");
@@ -279,7 +279,7 @@ std::string grip_verdict(const Scene& scene, const GripReport& report) {
   if (!result.plausible) {
     return fmt::format("Not plausible: {}, so nobody can take this grip.\n",
                        result.through_table  ? "the hand would go through the table"
-                       : result.beyond_wrist ? "no arm brings the hand there"
+                       : result.beyond_wrist ? "wrist and forearm would be beyond their ranges"
                        : result.self_overlap ? "the fingers would be in each other"
                                              : "the hand would be too deep in the vessel");
   }

@@ -162,8 +162,9 @@ std::vector<Variable> make_catalogue() {
   add(all, DEFAULT, Need::arm,
       {
           of_field(FIELD_WRIST_SHARE),
-          byte("beyond_wrist", "whether no arm reaches the hand within the ranges of its wrist, which makes the grip implausible",
-               YES_NO, FIELD_STATUS, beyond_wrist),
+          byte("beyond_wrist",
+               "whether wrist and forearm do not reach the hand within their ranges, which makes the grip implausible", YES_NO,
+               FIELD_STATUS, beyond_wrist),
       });
   add(all, DEFAULT, Need::nothing,
       {

@@ -39,7 +39,7 @@ inline std::vector<Tick> play_session(const Scene& scene, const LiveScript& scri
 
 inline double liquid_in_sight(const Tick& tick, int v) {
   const auto k = static_cast<std::size_t>(v);
-  return tick.volume[k] + tick.arrived[k] + tick.spilt[k];
+  return tick.volume[k] + tick.arrived[k] + tick.spilled[k];
 }
 
 // Straight above the hand's own frame: the gripper at NO_ROTATION.

@@ -283,8 +283,8 @@ WH_API wh_status wh_session_step(wh_session* session, const wh_measurement* meas
 
 typedef struct wh_session_vessel {
   size_t size;
-  double place[3], rotation[9];  /* of the vessel frame in the world frame */
-  double volume, arrived, spilt; /* m3: its liquid in it, in the target, and on the table */
+  double place[3], rotation[9];    /* of the vessel frame in the world frame */
+  double volume, arrived, spilled; /* m3: its liquid in it, in the target, and on the table */
 } wh_session_vessel;
 
 /* Where a vessel is after the last step. Does not allocate. */

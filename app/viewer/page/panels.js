@@ -103,9 +103,9 @@ export class Panels {
         element('span', {class: 'bar', 'aria-hidden': 'true'}, band, fill, wanted), element('span', {class: 'value'}, value, ` of ${millilitres(target_m3)} mL `, done)));
       return {fill, value, done, most, tolerance, target: target_m3};
     });
-    this.spilt = element('output', {});
+    this.spilled = element('output', {});
     this.allDone = element('span', {class: 'all-done'});
-    place.append(element('p', {class: 'spilt'}, 'Spilt ', this.spilt, ' mL', this.allDone));
+    place.append(element('p', {class: 'spilled'}, 'Spilled ', this.spilled, ' mL', this.allDone));
   }
 
   makeLoop(place) {
@@ -190,7 +190,7 @@ export class Panels {
       setText(row.value, millilitres(arrived));
       setText(row.done, isThere ? '✓' : arrived > row.target ? 'too much' : '');
     });
-    setText(this.spilt, millilitres(frame.spilt));
+    setText(this.spilled, millilitres(frame.spilled));
     setText(this.allDone, frame.done ? 'Task done' : '');
   }
 

@@ -102,7 +102,7 @@ TEST(LibrarySession, StepsAsTheProgramDoes) {
       expect_same(vessel.rotation, truth.poses()[0].rotation, "rotation");
       expect_same(vessel.volume, tick.volume[0], "volume");
       expect_same(vessel.arrived, tick.arrived[0], "arrived");
-      expect_same(vessel.spilt, tick.spilt[0], "spilt");
+      expect_same(vessel.spilled, tick.spilled[0], "spilled");
       if (n % 20 == 0) {
         ASSERT_EQ(wh_session_hand(session, &hand), WH_OK);
         const HandView view = hand_view(truth.live(), tick, truth.poses());

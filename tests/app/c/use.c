@@ -424,7 +424,7 @@ static void sessions(void) {
   CHECK(asked == before); /* nothing of it allocates */
   CHECK(seen[WH_LIFT] > 1000 && seen[WH_TILT] > 100 && seen[WH_MAINTAIN] > 100 && seen[WH_SLIPPED] > 0);
   CHECK(out.grasps == 1 && out.lost == 1);
-  CHECK(fabs(vessel.volume + vessel.arrived + vessel.spilt - water) < 1e-12);
+  CHECK(fabs(vessel.volume + vessel.arrived + vessel.spilled - water) < 1e-12);
 
   /* what is wrong: the session stays as it was */
   wh_measurement in = moment(6000);

@@ -186,7 +186,7 @@ TEST(Live, WhatAPagePostsGraspsLiftsTiltsAndPours) {
   const auto red =
       std::find_if(report["amounts"].begin(), report["amounts"].end(), [](const auto& a) { return a["liquid"] == "red"; });
   EXPECT_GT((*red)["arrived_m3"], 20e-6);
-  EXPECT_LT((*red)["spilt_m3"], (*red)["arrived_m3"]);
+  EXPECT_LT((*red)["spilled_m3"], (*red)["arrived_m3"]);
 }
 
 // Sixty frames a second at most, and of all of them the last.

@@ -33,7 +33,7 @@ RECORDED = [
     ("vessel_rotation", "vessel_rotation"),
     ("volume", "liquid_volume"),
     ("arrived", "arrived_volume"),
-    ("spilt", "spilt_volume"),
+    ("spilled", "spilled_volume"),
     ("flow", "flow"),
     ("grasp_height", "grasp_height"),
     ("touch_mask", "touch_mask"),

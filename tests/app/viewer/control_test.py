@@ -44,7 +44,7 @@ class ThePageAsGripper(ViewerTest):
         page.wait("wholehand.frame.vessels[1].place[1] > 0.08", what="the lift")
         slide(page, "control-tilt", 75)
         page.wait("wholehand.frame.tilt > 1.2", what="the tilt")
-        page.wait(f"wholehand.frame.spilt > {POURED}", what="something spilt: there is nothing below")
+        page.wait(f"wholehand.frame.spilled > {POURED}", what="something spilled: there is nothing below")
         slide(page, "control-tilt", 0)
         page.wait("wholehand.frame.tilt < 0.1", what="upright again")
         page.evaluate("document.querySelector('.grasp').click()")

@@ -109,7 +109,7 @@ constexpr NumberField NUMBER_FIELDS[] = {
     {"/forces/written", [](const Shown& s) { return s.tick.written.grip; }},
     {"/forces/base", [](const Shown& s) { return is_held(s.tick.state) ? s.scene.force.base : 0; }},
     {"/amounts/0/arrived", [](const Shown& s) { return s.tick.arrived[0]; }},
-    {"/spilt", [](const Shown& s) { return s.tick.spilt[0] + s.tick.spilt[1]; }},
+    {"/spilled", [](const Shown& s) { return s.tick.spilled[0] + s.tick.spilled[1]; }},
     {"/target_volume", [](const Shown& s) { return s.tick.arrived[0] + s.tick.arrived[1]; }},
     {"/timing/rate", [](const Shown&) { return 999.0; }},
     {"/timing/step", [](const Shown&) { return 4e-6; }},
@@ -133,8 +133,8 @@ struct KeysOf {
 };
 
 const std::vector<KeysOf> FRAME_KEYS{
-    {"", {"t",   "tick", "state",   "vessel", "joints", "rigged",  "wrist", "rigged_wrist",  "rotation", "contacts", "closure",
-          "gap", "tilt", "vessels", "stream", "forces", "amounts", "spilt", "target_volume", "guidance", "done",     "timing"}},
+    {"", {"t",   "tick", "state",   "vessel", "joints", "rigged",  "wrist",   "rigged_wrist",  "rotation", "contacts", "closure",
+          "gap", "tilt", "vessels", "stream", "forces", "amounts", "spilled", "target_volume", "guidance", "done",     "timing"}},
     {"/forces", {"feedback", "written", "base", "normal", "opening", "user", "hold", "weight", "torque"}},
 };
 

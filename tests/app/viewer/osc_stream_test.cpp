@@ -111,7 +111,7 @@ void expect_frame(std::map<std::string, OscMessage> messages, const Scene& scene
   const OscMessage amount = take("/wholehand/amount/water");
   EXPECT_EQ(number(amount), static_cast<float>(tick.arrived[0]));
   EXPECT_EQ(number(amount, 1), 200e-6f);
-  EXPECT_EQ(number(take("/wholehand/task/spilt")), static_cast<float>(tick.spilt[0]));
+  EXPECT_EQ(number(take("/wholehand/task/spilled")), static_cast<float>(tick.spilled[0]));
   EXPECT_EQ(whole(take("/wholehand/task/guidance")), tick.guidance);
   EXPECT_EQ(whole(take("/wholehand/task/done")), tick.task_done ? 1 : 0);
   EXPECT_EQ(whole(take("/wholehand/end")), tick.number);

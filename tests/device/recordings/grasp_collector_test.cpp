@@ -37,7 +37,7 @@ std::vector<Tick> senseless_ticks(std::uint64_t seed) {
       tick.tilt = below(90) * PI / 180;
       for (std::size_t v = 0; v < 3; ++v) {
         tick.arrived[v] += below(100) * 1e-7;
-        tick.spilt[v] += below(100) * 1e-8;
+        tick.spilled[v] += below(100) * 1e-8;
       }
       ticks.push_back(tick);
     }
@@ -71,7 +71,7 @@ std::vector<GraspReport> grasps_at_once(const std::vector<Tick>& ticks) {
     if (last == ticks.size()) --last;
     const auto v = static_cast<std::size_t>(grasp.vessel);
     grasp.arrived = ticks[last].arrived[v] - ticks[first].arrived[v];
-    grasp.spilt = ticks[last].spilt[v] - ticks[first].spilt[v];
+    grasp.spilled = ticks[last].spilled[v] - ticks[first].spilled[v];
     grasps.push_back(grasp);
   }
   return grasps;
@@ -96,7 +96,7 @@ TEST(GraspCollector, SaysWhatAllTicksAtOnceSay) {
       EXPECT_EQ(found[k].vessel, expected[k].vessel) << place;
       EXPECT_EQ(found[k].outcome, expected[k].outcome) << place;
       for (const auto member : {&GraspReport::start, &GraspReport::end, &GraspReport::largest_tilt, &GraspReport::grip_change,
-                                &GraspReport::after_at_first, &GraspReport::arrived, &GraspReport::spilt, &GraspReport::poured})
+                                &GraspReport::after_at_first, &GraspReport::arrived, &GraspReport::spilled, &GraspReport::poured})
         EXPECT_EQ(collected_bits(found[k].*member), collected_bits(expected[k].*member)) << place;
       EXPECT_EQ(collected_bits(found[k].before.mean), collected_bits(expected[k].before.mean)) << place;
       ++outcomes[static_cast<std::size_t>(found[k].outcome)];

@@ -174,8 +174,8 @@ TEST(Recording, IsWhatTheNetcdfLibraryReads) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(ticks[k].coupling[1][2]));
     EXPECT_EQ(nc_get_var1_double(file, variable("vessel_rotation"), row_column, &value), NC_NOERR);
     EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(ticks[k].vessel_rotation[7]));
-    EXPECT_EQ(nc_get_var1_double(file, variable("spilt_volume"), at, &value), NC_NOERR);
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(ticks[k].spilt[1]));
+    EXPECT_EQ(nc_get_var1_double(file, variable("spilled_volume"), at, &value), NC_NOERR);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(ticks[k].spilled[1]));
     EXPECT_EQ(nc_get_var1_schar(file, variable("state"), at, &flag), NC_NOERR);
     EXPECT_EQ(flag, static_cast<signed char>(ticks[k].state));
     EXPECT_EQ(nc_get_var1_int(file, variable("touch_mask"), at, &word), NC_NOERR);

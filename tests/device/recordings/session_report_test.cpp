@@ -210,7 +210,7 @@ TEST(SessionReport, GripLostOnTheWayIsNotAnalysed) {
   session.with([](Tick& tick) { ++tick.lost; }).stretch(0.2, SessionState::slipped);
   const GraspReport grasp = only_grasp(session);
   EXPECT_EQ(grasp.outcome, GraspOutcome::lost);
-  EXPECT_EQ(grasp.course, GripCourse::not_analysed);
+  EXPECT_EQ(grasp.course, GripCourse::not_analyzed);
   EXPECT_NEAR(grasp.tilt_start, 0.5, 1e-9);
   EXPECT_TRUE(std::isnan(grasp.tilt_time));
   EXPECT_NEAR(degrees(grasp.largest_tilt), 60, 0.1);
@@ -227,7 +227,7 @@ TEST(SessionReport, LiquidGuidanceAndTask) {
   // it falls for a while after the grasp
   session.stretch(0.2, SessionState::free, [](double t, Tick& tick) {
     tick.arrived[0] = ramp_to(t, 0.1, 0, 101e-6);
-    tick.spilt[0] = ramp_to(t, 0.1, 0, 9e-6);
+    tick.spilled[0] = ramp_to(t, 0.1, 0, 9e-6);
   });
   session.hold(1).stretch(0.1, SessionState::lift).hold(0).stretch(0.1, SessionState::lift);
   session.with([](Tick& tick) {
@@ -242,7 +242,7 @@ TEST(SessionReport, LiquidGuidanceAndTask) {
   EXPECT_TRUE(std::isnan(report.grasps[1].guidance_distance));
   EXPECT_NEAR(report.grasps[0].poured, 110e-6, 1e-12);
   EXPECT_NEAR(report.grasps[0].arrived, 101e-6, 1e-12);
-  EXPECT_NEAR(report.grasps[0].spilt, 9e-6, 1e-12);
+  EXPECT_NEAR(report.grasps[0].spilled, 9e-6, 1e-12);
   EXPECT_NEAR(report.grasps[1].arrived, 40e-6, 1e-12);
   EXPECT_NEAR(report.grasps[2].arrived, 0, 1e-12) << "counted with the first";
   EXPECT_EQ(report.destinations, 2);
@@ -250,7 +250,7 @@ TEST(SessionReport, LiquidGuidanceAndTask) {
   ASSERT_EQ(report.amounts.size(), 2u);
   EXPECT_EQ(report.amounts[0].liquid, "water");
   EXPECT_NEAR(report.amounts[0].arrived, 101e-6, 1e-12);
-  EXPECT_NEAR(report.amounts[0].spilt, 9e-6, 1e-12);
+  EXPECT_NEAR(report.amounts[0].spilled, 9e-6, 1e-12);
   EXPECT_TRUE(report.amounts[0].is_within);
   EXPECT_NEAR(report.amounts[1].wanted, 50e-6, 1e-12);
   EXPECT_FALSE(report.amounts[1].is_within);
@@ -304,7 +304,7 @@ TEST(SessionReport, OfNothingAndOfNoNumbers) {
       radians(90), [](double) { return NOT_A_NUMBER; }, [](double) { return NOT_A_NUMBER; });
   for (Tick& tick : session.recording.ticks) tick.device.gap = tick.volume[0] = NOT_A_NUMBER;
   const GraspReport grasp = only_grasp(session);
-  EXPECT_EQ(grasp.course, GripCourse::not_analysed);
+  EXPECT_EQ(grasp.course, GripCourse::not_analyzed);
   EXPECT_EQ(grasp.before.count, 0u);
   EXPECT_TRUE(std::isnan(grasp.response_time));
   EXPECT_TRUE(parse_json(session_json(session.report()))["grasps"][0]["poured_m3"].is_null());

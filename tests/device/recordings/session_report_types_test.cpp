@@ -92,7 +92,7 @@ TEST(SessionReport, WhatSaturatesWhileItIsTiltedHasNoType) {
   for (Tick& tick : session.recording.ticks)
     if (tick.state == SessionState::maintain) tick.feedback = 8;
   EXPECT_NEAR(only_grasp(session).saturated, 2, 1e-9);
-  EXPECT_EQ(only_grasp(session).course, GripCourse::not_analysed);
+  EXPECT_EQ(only_grasp(session).course, GripCourse::not_analyzed);
   EXPECT_NE(session_table(session.report()).find("the feedback was at F_max for 2.000 s"), std::string::npos);
 }
 
@@ -101,13 +101,13 @@ TEST(SessionReport, TiltsUnder30DegreesAreNotAnalysed) {
     return only_grasp(tilted_session(
         radians(tilt), [](double x) { return linear_between(x, 3, 6); }, [](double x) { return linear_between(x, 0.8, 2); }));
   };
-  EXPECT_EQ(of(29).course, GripCourse::not_analysed);
+  EXPECT_EQ(of(29).course, GripCourse::not_analyzed);
   EXPECT_EQ(of(31).course, GripCourse::more);
   EXPECT_NEAR(of(29).grip_change, 3, 2e-3) << "measured all the same";
   RecordedSession upright;
   upright.hold(0).stretch(1, SessionState::lift);
   const GraspReport grasp = only_grasp(upright);
-  EXPECT_EQ(grasp.course, GripCourse::not_analysed);
+  EXPECT_EQ(grasp.course, GripCourse::not_analyzed);
   EXPECT_TRUE(std::isnan(grasp.tilt_start));
   EXPECT_TRUE(std::isnan(grasp.grip_change));
 }

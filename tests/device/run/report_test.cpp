@@ -48,10 +48,10 @@ TEST(LiveReport, TheMixingBoardAddsUpVesselsOfOneLiquid) {
   Tick tick;
   tick.arrived[1] = 1e-6;
   tick.arrived[2] = 2e-6;
-  tick.spilt[2] = 5e-7;
+  tick.spilled[2] = 5e-7;
   for (const MixedAmount& amount : mixing_board(scene, tick)) {
     EXPECT_DOUBLE_EQ(amount.arrived, amount.liquid == "red" ? 3e-6 : 0) << amount.liquid;
-    EXPECT_DOUBLE_EQ(amount.spilt, amount.liquid == "red" ? 5e-7 : 0) << amount.liquid;
+    EXPECT_DOUBLE_EQ(amount.spilled, amount.liquid == "red" ? 5e-7 : 0) << amount.liquid;
   }
   scene.task.reset();
   EXPECT_TRUE(mixing_board(scene, tick).empty());

@@ -28,7 +28,7 @@ TaskData target_at(const Triple& place, double diameter) {
 }
 
 double in_sight(const Pouring& pouring, int vessel) {
-  return pouring.volume(vessel) + pouring.arrived(vessel) + pouring.spilt(vessel);
+  return pouring.volume(vessel) + pouring.arrived(vessel) + pouring.spilled(vessel);
 }
 
 // What is above what the lip holds back leaves with a time constant, however time is cut into ticks.
@@ -38,7 +38,7 @@ TEST(Pouring, AnExcessLeavesExponentially) {
     for (int n = 0; n < ticks; ++n) pouring.pour(0, 120 * MILLILITRE, Vec3(0, 1, 0), n, 0.4 / ticks);
     const double left = 120 * MILLILITRE + 80 * MILLILITRE * std::exp(-0.4 / POUR_TIME);
     EXPECT_NEAR(pouring.volume(0), left, ROUNDING) << ticks;
-    EXPECT_NEAR(pouring.spilt(0), 200 * MILLILITRE - left, ROUNDING) << ticks;
+    EXPECT_NEAR(pouring.spilled(0), 200 * MILLILITRE - left, ROUNDING) << ticks;
   }
 }
 
@@ -85,13 +85,13 @@ TEST(Pouring, ADropArrivesAfterTheTimeOfItsFall) {
       }
       pouring.land(lands);
       EXPECT_NEAR(pouring.arrived(0), drop, 1e-19) << height;  // of 1e-4 less what is left of it
-      EXPECT_EQ(pouring.spilt(0), 0);
+      EXPECT_EQ(pouring.spilled(0), 0);
     }
   }
 }
 
 // The mouth is a level disc: a lip over its edge hits, a hair further out or a hair below it misses.
-TEST(Pouring, WhatMissesTheMouthByAHairIsSpilt) {
+TEST(Pouring, WhatMissesTheMouthByAHairIsSpilled) {
   const double radius = 0.04;
   for (int k = 0; k < 12; ++k) {
     const double a = 2 * PI * k / 12;
@@ -100,7 +100,7 @@ TEST(Pouring, WhatMissesTheMouthByAHairIsSpilt) {
       const double r = radius + hair;
       pouring.pour(0, 0, Vec3(0.2 + r * std::cos(a), 0.3, -0.1 + r * std::sin(a)), 0, 1e-3);
       pouring.land(1000);
-      EXPECT_EQ(pouring.spilt(0) > 0, hair > 0);
+      EXPECT_EQ(pouring.spilled(0) > 0, hair > 0);
       EXPECT_EQ(pouring.arrived(0) > 0, hair < 0);
     }
   }
@@ -108,7 +108,7 @@ TEST(Pouring, WhatMissesTheMouthByAHairIsSpilt) {
     Pouring pouring({100 * MILLILITRE}, target_at({0.2, 0.1, -0.1}, 2 * radius), G, 1000);
     pouring.pour(0, 0, Vec3(0.2, 0.1 + hair, -0.1), 0, 1e-3);
     pouring.land(1000);
-    EXPECT_EQ(pouring.spilt(0) > 0, hair < 0);
+    EXPECT_EQ(pouring.spilled(0) > 0, hair < 0);
   }
 }
 
@@ -136,7 +136,7 @@ TEST(Pouring, TheSumIsKeptAtEveryTick) {
       }
     }
     EXPECT_GT(pouring.arrived(0), 10 * MILLILITRE);
-    EXPECT_GT(pouring.spilt(0), 10 * MILLILITRE);
+    EXPECT_GT(pouring.spilled(0), 10 * MILLILITRE);
     pouring.land(number + static_cast<std::int64_t>(LONGEST_FALL * rate) + 1);
     for (int v = 0; v < 3; ++v) EXPECT_NEAR(in_sight(pouring, v), start[static_cast<std::size_t>(v)], ROUNDING);
   }
@@ -149,7 +149,7 @@ TEST(Pouring, HoldsAllThatCanBeInTheAir) {
   for (int n = 0; n < 40000; ++n) {
     pouring.land(n);
     pouring.pour(0, 1 - n / 40000.0, Vec3(0, 1, 0), n, 1 / rate);
-    ASSERT_EQ(pouring.spilt(0), 0) << n;
+    ASSERT_EQ(pouring.spilled(0), 0) << n;
   }
 }
 

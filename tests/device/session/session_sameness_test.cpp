@@ -42,8 +42,8 @@ TEST(Session, LosesNoLiquid) {
       }
     }
     EXPECT_NEAR(liquid_in_sight(record.back(), 0), whole, 1e-15);  // seconds after: all has landed
-    EXPECT_GT(hits ? record.back().arrived[0] : record.back().spilt[0], 50e-6);
-    EXPECT_EQ(hits ? record.back().spilt[0] : record.back().arrived[0], hits ? record.back().spilt[0] : 0);
+    EXPECT_GT(hits ? record.back().arrived[0] : record.back().spilled[0], 50e-6);
+    EXPECT_EQ(hits ? record.back().spilled[0] : record.back().arrived[0], hits ? record.back().spilled[0] : 0);
   }
 }
 
@@ -70,7 +70,7 @@ void expect_same_to_the_bit(const Tick& a, const Tick& b) {
   EXPECT_EQ(a.proxies, b.proxies);
   EXPECT_EQ(a.volume, b.volume);
   EXPECT_EQ(a.arrived, b.arrived);
-  EXPECT_EQ(a.spilt, b.spilt);
+  EXPECT_EQ(a.spilled, b.spilled);
   EXPECT_EQ(a.torque, b.torque);
   EXPECT_EQ(a.vessel_place, b.vessel_place);
 }

@@ -13,7 +13,7 @@ Tick numbered(std::int64_t number) {
   Tick tick;
   tick.number = number;
   tick.step_time = static_cast<double>(number) * 0.5;
-  tick.spilt.back() = static_cast<double>(-number);
+  tick.spilled.back() = static_cast<double>(-number);
   return tick;
 }
 
@@ -28,7 +28,7 @@ TEST(TickRing, GivesBackInOrderWhatItTook) {
     for (int k = 0; k < 3; ++k) {
       ASSERT_TRUE(ring.pop(tick));
       EXPECT_EQ(tick.number, 10 * round + k);
-      EXPECT_EQ(tick.spilt.back(), -(10.0 * round + k)) << "the whole tick";
+      EXPECT_EQ(tick.spilled.back(), -(10.0 * round + k)) << "the whole tick";
     }
     EXPECT_FALSE(ring.pop(tick));
     EXPECT_EQ(ring.size(), 0u);
@@ -80,7 +80,7 @@ TEST(TickRing, LosesNothingBetweenTwoThreads) {
       continue;
     }
     const auto as_number = static_cast<double>(expected);
-    wrong += tick.number != expected || tick.step_time != as_number * 0.5 || tick.spilt.back() != -as_number;
+    wrong += tick.number != expected || tick.step_time != as_number * 0.5 || tick.spilled.back() != -as_number;
     if (ring.size() > ring.capacity()) ++wrong;
     ++expected;
   }

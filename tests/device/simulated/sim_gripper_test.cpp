@@ -83,7 +83,7 @@ TEST(SimGripper, CompletesTheTaskOfTheShippedScene) {
     EXPECT_EQ(last.destinations, 1);
     double arrived = 0;
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-      EXPECT_EQ(last.spilt[v], 0) << v;
+      EXPECT_EQ(last.spilled[v], 0) << v;
       arrived += last.arrived[v];
     }
     double wanted = 0;
@@ -189,7 +189,7 @@ TEST(SimGripper, KeepsVesselAndHandClearOfTheTargetsWall) {
     EXPECT_EQ(last.grasps, 4);
     EXPECT_EQ(last.lost, 0);
     EXPECT_TRUE(last.task_done);
-    for (std::size_t v = 0; v < scene.vessels.size(); ++v) EXPECT_EQ(last.spilt[v], 0) << v;
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v) EXPECT_EQ(last.spilled[v], 0) << v;
   }
 }
 

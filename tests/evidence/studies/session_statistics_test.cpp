@@ -128,9 +128,9 @@ TEST(SessionStatistics, SharesAreOfTheGraspsThatTheyAreSaidOf) {
   grasps[3].after_at_first = 1;           // nor under 1
   grasps[4].after_at_first = Tick::NONE;  // nothing is maintained
   // saturated: no type, and still maintained
-  grasps.push_back(tilted_grasp(1, 9, 9, GripCourse::not_analysed));
+  grasps.push_back(tilted_grasp(1, 9, 9, GripCourse::not_analyzed));
   // hardly tilted, and lost
-  grasps.push_back(tilted_grasp(1, 9, 9, GripCourse::not_analysed));
+  grasps.push_back(tilted_grasp(1, 9, 9, GripCourse::not_analyzed));
   grasps.back().largest_tilt = radians(29);
   grasps.back().after_at_first = 9;
   grasps.back().before.mean = 100;

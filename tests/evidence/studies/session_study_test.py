@@ -51,11 +51,11 @@ class SessionStudy(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def of(self, vessel, *, tilted=False, analysed=False):
+    def of(self, vessel, *, tilted=False, analyzed=False):
         chosen = [row for row in self.grasps if vessel in ("all", row["vessel"])]
         if tilted:
             chosen = [row for row in chosen if number(row["largest_tilt_deg"]) >= 30]
-        if analysed:
+        if analyzed:
             chosen = [row for row in chosen if row["type"]]
         return chosen
 
@@ -88,14 +88,14 @@ class SessionStudy(unittest.TestCase):
         for vessel in VESSELS:
             self.expect_moments(vessel, "grip_before", self.of(vessel, tilted=True), "grip_before_N")
             self.expect_moments(vessel, "grip_during", self.of(vessel, tilted=True), "grip_during_N")
-            self.expect_moments(vessel, "normal_increase", self.of(vessel, analysed=True), "normal_increase_N")
+            self.expect_moments(vessel, "normal_increase", self.of(vessel, analyzed=True), "normal_increase_N")
         self.expect_moments("all", "tilt_time", self.of("all", tilted=True), "tilt_time_s")
         maintained = [row for row in self.of("all", tilted=True) if row["grip_after_N"]]
         self.expect_moments("all", "maintained_time", maintained, "maintain_s")
 
     def test_shares(self):
         for vessel in ["all", *VESSELS]:
-            rows = self.of(vessel, analysed=True)
+            rows = self.of(vessel, analyzed=True)
             for course in "1234":
                 self.expect(vessel, f"g{course}_share", numpy.mean([row["type"] == f"G{course}" for row in rows]))
             self.expect(vessel, "rising_share", numpy.mean([number(row["grip_change_N"]) > 0 for row in rows]))
@@ -103,13 +103,13 @@ class SessionStudy(unittest.TestCase):
 
     def test_correlations(self):
         for vessel in VESSELS:
-            rows = self.of(vessel, analysed=True)
+            rows = self.of(vessel, analyzed=True)
             self.expect_correlation(vessel, "correlation_increase_change", rows, "normal_increase_N", "grip_change_N")
-        rows = self.of("all", analysed=True)
+        rows = self.of("all", analyzed=True)
         self.expect_correlation("all", "correlation_before_change", rows, "grip_before_N", "grip_change_N")
 
     def test_analysis_of_variance(self):
-        groups = [finite(self.column(self.of(vessel, analysed=True), "normal_increase_N")) for vessel in VESSELS]
+        groups = [finite(self.column(self.of(vessel, analyzed=True), "normal_increase_N")) for vessel in VESSELS]
         groups = [group for group in groups if len(group)]
         f, p = stats.f_oneway(*groups)
         together = numpy.concatenate(groups)
@@ -124,7 +124,7 @@ class SessionStudy(unittest.TestCase):
 
     def test_there_is_much_to_compare(self):
         self.assertGreaterEqual(len(self.grasps), 3 * len(PEOPLE))
-        self.assertGreaterEqual(len(self.of("all", analysed=True)), 2 * len(PEOPLE))
+        self.assertGreaterEqual(len(self.of("all", analyzed=True)), 2 * len(PEOPLE))
 
 
 if __name__ == "__main__":

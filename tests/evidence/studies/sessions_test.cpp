@@ -67,7 +67,7 @@ TEST(Sessions, AreMeasuredAsRecordingsAre) {
   EXPECT_TRUE(same({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first.size())}, first));
   EXPECT_FALSE(same({all.begin() + static_cast<std::ptrdiff_t>(first.size()), all.end()}, first)) << "with grasps of its own";
   ASSERT_FALSE(first.empty());
-  EXPECT_GT(first[0].largest_tilt, LEAST_ANALYSED);
+  EXPECT_GT(first[0].largest_tilt, LEAST_ANALYZED);
   EXPECT_GT(first[0].normal_increase, 0);
 }
 
@@ -151,7 +151,7 @@ TEST(Sessions, GraspsSurviveAsNumbers) {
   EXPECT_EQ(again[0].vessel, grasps[0].vessel);
   EXPECT_EQ(again[0].course, grasps[0].course);
   EXPECT_EQ(again[0].before.count, grasps[0].before.count);
-  EXPECT_EQ(again[0].spilt, grasps[0].spilt);
+  EXPECT_EQ(again[0].spilled, grasps[0].spilled);
   EXPECT_EQ(again[0].after_at_first, grasps[0].after_at_first);
   // a member that to_numbers leaves out would be lost: 16 numbers, 3 durations, 3 means of 3 numbers, and 3 names
   EXPECT_EQ(to_numbers({grasps, 0}).size(), 1 + 31 * grasps.size());

@@ -71,7 +71,7 @@ TEST(TrialAnalysis, CountsByHand) {
   made.add({0.9, 2}, {false, false});  // the second was not reached
   made.add({0.3, 0.4}, {true, true});
   made.discard_last(1, TrialReason::diverged);
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   ASSERT_EQ(found.successes.size(), 2u);
   EXPECT_EQ(found.successes[0].trials.held.yes, 3u);
   EXPECT_EQ(found.successes[0].trials.held.of, 4u);
@@ -97,7 +97,7 @@ TEST(TrialAnalysis, PredictorsOfGripsAndOfTrials) {
   made.add({0.5, 0.1}, {true, true});
   made.add({0.1, 0.8}, {true, false});
   made.add({0.3, 3}, {true, false});
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   EXPECT_DOUBLE_EQ(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.auc, 1);
   EXPECT_EQ(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.successes, 2u);
   EXPECT_DOUBLE_EQ(row_of(found, SAMPLE, BY_PUSH).auc.auc, 1);
@@ -117,7 +117,7 @@ TEST(TrialAnalysis, ALossOnTheWayIsJudgedByItsEffort) {
   said.leg_effort = 3;
   said.leg_tips = 6;
   made.tried.found.back().outcomes[1].tilt_lost = 0.7;
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   const Confusion& confusion = found.efforts[0].confusion;
   EXPECT_EQ(confusion.held_as_said, 3u);
   EXPECT_EQ(confusion.lost_as_said, 1u);
@@ -137,7 +137,7 @@ TEST(TrialAnalysis, BarsOfTheBestGrips) {
   made.add({0.7, 0.9}, {true, true}, TrialSample::best);
   made.add({0.1, 0.2}, {true, true}, TrialSample::best);
   made.discard_last(1, TrialReason::buried);
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   const TrialBar& bar = found.bars.back();
   EXPECT_DOUBLE_EQ(bar.found, 0.95) << "of 20: the one without a sure trial shows nothing";
   EXPECT_EQ(bar.how, "19 of 20 grips; left out: 1 with a discarded trial, 1 without such an effort");
@@ -145,13 +145,13 @@ TEST(TrialAnalysis, BarsOfTheBestGrips) {
   EXPECT_STREQ(found.bars[0].verdict(), "not measured") << "no stratified sample";
   EXPECT_TRUE(std::isnan(found.bars[0].found));
   made.add({0.1, 0.4}, {true, false}, TrialSample::best);
-  EXPECT_STREQ(analyse_trials(made.scene, made.tried, made.options).bars.back().verdict(), "missed");
+  EXPECT_STREQ(analyze_trials(made.scene, made.tried, made.options).bars.back().verdict(), "missed");
 }
 
 TEST(TrialAnalysis, ABarThatNoGripCanShowIsNotMet) {
   Made made;
   made.add({0.7, 0.9}, {true, true}, TrialSample::best);
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   EXPECT_TRUE(std::isnan(found.bars.back().found));
   EXPECT_STREQ(found.bars.back().verdict(), "not measured");
 }
@@ -160,7 +160,7 @@ TEST(TrialAnalysis, ABarThatNoGripCanShowIsNotMet) {
 TEST(TrialAnalysis, BarsOfTooFewGripsAreNotJudged) {
   Made made;
   const auto verdict = [&made](std::size_t bar) {
-    const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+    const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
     return std::string(bar < found.bars.size() ? found.bars[bar].verdict() : found.bars.back().verdict());
   };
   constexpr std::size_t LAST = 99;
@@ -185,7 +185,7 @@ TEST(TrialAnalysis, CountsSlipsOfHeldTrials) {
   made.tried.found.back().outcomes[1].slip = 1.9e-3;
   made.add({0.1, 0.2}, {true, false});
   made.tried.found.back().outcomes[1].slip = 9e-3;
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   EXPECT_EQ(found.successes[0].trials.slipped, 0u);
   EXPECT_EQ(found.successes[1].trials.slipped, 1u);
   EXPECT_EQ(found.grips[0].slipped.yes, 1u);
@@ -203,7 +203,7 @@ TEST(TrialAnalysis, PushesOfBothMaterialsStandSideBySide) {
   }
   made.add({0.1, 0.2}, {true, true});
   made.add({0.1, 0.2}, {true, false});
-  const auto pushed = analyse_trials(made.scene, made.tried, made.options).pushed;
+  const auto pushed = analyze_trials(made.scene, made.tried, made.options).pushed;
   ASSERT_EQ(pushed.size(), 1u);
   ASSERT_EQ(pushed[0].by_material.size(), 2u);
   EXPECT_EQ(pushed[0].by_material[0].held.yes, 2u);
@@ -217,7 +217,7 @@ TEST(TrialAnalysis, DisagreementsAreTheWorstOfEachKind) {
   made.add({0.1, INFINITY}, {true, true});
   made.add({3, 5}, {true, true});
   made.add({0.1, 0.2}, {true, true});
-  const auto found = analyse_trials(made.scene, made.tried, made.options).disagreements;
+  const auto found = analyze_trials(made.scene, made.tried, made.options).disagreements;
   ASSERT_EQ(found.size(), MOST_DISAGREEMENTS);
   EXPECT_EQ(found[0].grip, 12u) << "infinite";
   const auto held = std::count_if(found.begin(), found.end(), [](const Disagreement& one) { return one.effort > 1; });
@@ -234,7 +234,7 @@ TEST(TrialAnalysis, WithoutBothOutcomesThereIsNoAuc) {
   Made made;
   made.add({0.1, 0.2}, {true, true});
   made.add({0.2, 0.2}, {true, true});
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   EXPECT_TRUE(std::isnan(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.auc));
   EXPECT_FALSE(found.weights->fit.is_fitted);
   EXPECT_TRUE(found.disagreements.empty());
@@ -262,7 +262,7 @@ TEST(TrialAnalysis, PlacementsOfTheFirstGripsHaveABar) {
     if (rank <= 5) place_last(made, 19, 1, 0, 0.9, 0.8);
     if (rank > 5) place_last(made, 0, 18, 2, 0.9, 0.8);
   }
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   ASSERT_TRUE(found.scatter);
   ASSERT_EQ(found.scatter->rows.size(), 2u);
   EXPECT_TRUE(found.scatter->rows[0].is_first);
@@ -275,7 +275,7 @@ TEST(TrialAnalysis, PlacementsOfTheFirstGripsHaveABar) {
   EXPECT_STREQ(bar.verdict(), "met");
   EXPECT_EQ(bar.how, "95 of 100 placements; 5 overlap");
   made.tried.found[4].placements[0].held = false;
-  EXPECT_STREQ(analyse_trials(made.scene, made.tried, made.options).bars.back().verdict(), "missed");
+  EXPECT_STREQ(analyze_trials(made.scene, made.tried, made.options).bars.back().verdict(), "missed");
 }
 
 // Against a count over all pairs of a placement that was held and one that was not.
@@ -290,7 +290,7 @@ TEST(TrialAnalysis, PlacementsAreJudgedOneByOne) {
   }
   made.add({0.1, 0.2}, {true, true}, TrialSample::best);
   place_last(made, 0, 8, 0, 9, 9);  // another sample
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   const auto expected = [&](const std::function<double(const GripFinding&)>& value) {
     double won = 0, pairs = 0;
     for (std::size_t a = 0; a < 30; ++a)
@@ -330,7 +330,7 @@ TEST(TrialAnalysis, WeightsAreFittedToPlacementsOfGripsThatHoldByEffort) {
     place_last(made, 8, 0, 0, 0, 0);
     made.tried.found.back().prediction.scene_worst_effort = 3;
   }
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   ASSERT_TRUE(found.scatter && found.scatter->weights && found.scatter->weights->fit.is_fitted);
   const WeightTrial& weights = *found.scatter->weights;
   EXPECT_EQ(weights.fitted_on + weights.judged_on, 60u) << "grips, of those that hold";
@@ -350,7 +350,7 @@ TEST(TrialAnalysis, DiscardedGripsAreInTheFitOfWeights) {
     made.discard_last(0, TrialReason::overlap);
     made.tried.found.back().prediction.terms[2] = 0.3;
   }
-  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialAnalysis found = analyze_trials(made.scene, made.tried, made.options);
   ASSERT_TRUE(found.weights && found.weights->fit.is_fitted);
   EXPECT_EQ(found.weights->fitted_on + found.weights->judged_on, 60u);
   const WeightContest &all = found.weights->all, &tried = found.weights->tried;
