@@ -27,11 +27,11 @@ ShownGrip shown_grip(const Scene& scene, const Advice& advice, const Adviser& ad
   ShownGrip shown;
   if (advice.vessel < 0 || advice.is_held || !advice.best || !advice.is_better) return shown;
   const auto v = static_cast<std::size_t>(advice.vessel);
-  const Handedness handedness = scene.hand.handedness;
-  GripInput grip = mirrored(advice.best->grip, handedness);
+  const Mirror mirror(scene.hand.handedness);
+  GripInput grip = mirror(advice.best->grip);
   grip.azimuth = grip.offset = 0;
   GripResult result;
-  adviser.core().grip(v, mirrored(grip, handedness), result);
+  adviser.core().grip(v, mirror(grip), result);
   if (result.reason != Reason::none) return shown;
   shown = {advice.vessel, grip, result.gap, {}};
   const VesselData& vessel = scene.vessels[v];

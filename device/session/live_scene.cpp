@@ -24,7 +24,7 @@ using core_f64::Vec3;
 namespace {
 
 LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const core_f64::Quadrature& quadrature) {
-  const bool is_left = scene.hand.handedness == Handedness::left;
+  const Mirror mirror(scene.hand.handedness);
   if (data.liquid_fill > 0 && !(scene.liquid && data.has_cavity())) {
     throw usage_error(at_place(scene.file, "vessel '" + data.name + "' has liquid in it; that needs [liquid] and " +
                                                (data.mesh ? "'inner_outline'" : "'wall_mm' or 'inner_outline'")));
@@ -33,10 +33,9 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
   live.radius = prepared.largest_radius;
   live.vessel = core_f64::load_vessel(prepared, data, quadrature, scene.liquid.has_value(), scene.hand.handedness);
-  if (data.mesh)
-    core_f64::use_lattice(live.vessel, core_f64::load_lattice(mirrored(data.mesh->body->lattice, scene.hand.handedness)));
+  if (data.mesh) core_f64::use_lattice(live.vessel, core_f64::load_lattice(mirror(data.mesh->body->lattice)));
   live.force = core_f64::load_force(scene, data);
-  live.home = to_vec3(mirrored(data.place, scene.hand.handedness));
+  live.home = mirror.in(data.place);
   double most = 0;
   core_f64::LiquidState liquid;
   liquid.height = live.vessel.floor_height;
@@ -49,8 +48,7 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   live.largest = core_f64::load_with(live.vessel, most * density, liquid.lean, liquid.height);
   live.force.reference = core_f64::object_reference(live.largest, live.force.gravity, data.base, data.height);
   for (const GuidancePoint& point : data.guidance) {
-    const double azimuth = is_left ? PI - point.azimuth : point.azimuth;
-    const Vec3 out = core_f64::grip_direction(azimuth, 0), axis(0, point.height, 0);
+    const Vec3 out = core_f64::grip_direction(mirror(GripInput{point.height, point.azimuth}).azimuth, 0), axis(0, point.height, 0);
     const core_f64::Trace trace = core_f64::trace_tip(live.vessel, axis, out, 1, 0);
     live.guidance.push_back(trace.reason == REASON_NONE ? axis + trace.t * out : axis);
   }

@@ -93,7 +93,7 @@ std::vector<double> smoothed_above(const std::vector<double>& heights) {
 std::vector<HeldBall> held_hand(const HandData& hand, const GripInput& grip, const GripResult& result) {
   std::vector<HeldBall> balls;
   for (int j = 0; j < JOINT_COUNT; ++j) {
-    const Vec3 place = to_vec3(mirrored(result.proxies[j], hand.handedness));
+    const Vec3 place = Mirror(hand.handedness).in(result.proxies[j]);
     balls.push_back({place - Vec3(0, grip.height, 0), hand.scale * joint_radius(hand, j)});
   }
   return balls;
@@ -103,8 +103,7 @@ std::vector<HeldBall> held_vessel(const VesselData& vessel, const GripInput& gri
   const Vec3 middle(0, grip.height, 0);
   std::vector<HeldBall> balls;
   if (vessel.mesh) {
-    for (const Triple& point : surface_points(*vessel.mesh->body))
-      balls.push_back({to_vec3(mirrored(point, handedness)) - middle, 0});
+    for (const Triple& point : surface_points(*vessel.mesh->body)) balls.push_back({Mirror(handedness).in(point)-middle, 0});
     return balls;
   }
   const PreparedVessel prepared = prepare_vessel(vessel, false);
@@ -126,7 +125,7 @@ std::vector<HeldBall> held_vessel(const VesselData& vessel, const GripInput& gri
 PourPath::PourPath(const TaskData& task, const VesselData& vessel, const HandData& hand, const GripInput& grip,
                    const GripResult& result) {
   const PreparedVessel prepared = prepare_vessel(vessel, true);
-  const Vec3 target = to_vec3(mirrored(task.target_place, hand.handedness));
+  const Vec3 target = Mirror(hand.handedness).in(task.target_place);
   lip_ = {0, prepared.mouth_height - grip.height, -prepared.mouth_radius};
   aim_ = target + Vec3(0, 0, NEAR_SIDE * 0.5 * task.target_diameter);
   std::vector<HeldBall> balls = held_vessel(vessel, grip, hand.handedness);
