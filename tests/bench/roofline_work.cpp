@@ -17,9 +17,9 @@ namespace {
 
 constexpr double GOLDEN = 0.6180339887498949;  // whose multiples, modulo 1, spread evenly
 
-Workload workload_of(Scene scene, bool with_reserves = true) {
+Workload workload_of(Scene scene, bool with_reserves = false) {
   std::vector<int> kept = variable_fields(choose_variables(scene));
-  if (!with_reserves) std::erase_if(kept, [](int field) { return field == FIELD_PUSH || field == FIELD_FRICTION_NEEDED; });
+  if (with_reserves) kept.insert(kept.end(), {FIELD_PUSH, FIELD_FRICTION_NEEDED});  // as [output] also asks for them
   Workload workload{std::move(scene), {}};
   workload.fields = make_field_set(kept, workload.scene);
   return workload;
@@ -58,7 +58,7 @@ std::vector<Workload> roofline_workloads() {
   Scene grips = bodies;
   grips.table.reset();
   grips.hand.between = 0;
-  return {workload_of(grips), workload_of(bodies), workload_of(forces), workload_of(whole, false), workload_of(whole)};
+  return {workload_of(grips), workload_of(bodies), workload_of(forces), workload_of(whole), workload_of(whole, true)};
 }
 
 std::vector<GripInput> sample_of(const Workload& workload, std::size_t vessel) {
