@@ -253,7 +253,7 @@ void GripProgram::write_parameters(const SceneArrays& arrays) {
 
 void GripProgram::write_fills(const Scene& scene, const SceneArrays& arrays) {
   write_parameters(arrays);
-  for (std::size_t v = 0; v < vessels.size(); ++v) upload_states(v, scene, arrays);
+  for (std::size_t v = 0; v < vessels.size() && scene.liquid; ++v) upload_states(v, scene, arrays);
 }
 
 std::vector<Buffer> GripProgram::upload_blocks(const std::vector<double>& states) {

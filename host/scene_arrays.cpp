@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/numbers/parallel.h"
 #include "core/counted_tilts.h"
 #include "core/extreme_points.h"
 #include "core/hand_size.h"
@@ -115,14 +116,19 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
 }
 
 void add_loads(VesselArrays& vessel, const Scene& scene, const Evaluator& core, std::size_t v) {
+  const std::size_t tilts = scene.tilts.size();
+  std::vector<LiquidResult> liquid(scene_fills(scene) * tilts);
+  if (scene.liquid) {
+    const std::vector<double>& fills = vessel_fills(scene, scene.vessels[v]);
+    in_parallel(liquid.size(), thread_count(),
+                [&](std::size_t state) { liquid[state] = core.liquid(v, fills[state / tilts], scene.tilts[state % tilts]); });
+    vessel.liquid = liquid;
+  }
   const double own = core.constants(v).mass;
-  for (const double fill : scene.liquid ? vessel_fills(scene, scene.vessels[v]) : std::vector<double>{0})
-    for (const double tilt : scene.tilts) {
-      const LiquidResult liquid = scene.liquid ? core.liquid(v, fill, tilt) : LiquidResult{};
-      if (scene.liquid) vessel.liquid.push_back(liquid);
-      const double together = own + liquid.mass, share = together > 0 ? liquid.mass / together : 0;
-      vessel.loads.insert(vessel.loads.end(), {together, share, share * liquid.lean, share * liquid.height});
-    }
+  for (const LiquidResult& state : liquid) {
+    const double together = own + state.mass, share = together > 0 ? state.mass / together : 0;
+    vessel.loads.insert(vessel.loads.end(), {together, share, share * state.lean, share * state.height});
+  }
 }
 
 }  // namespace

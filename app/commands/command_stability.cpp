@@ -90,7 +90,7 @@ void add_stability_command(CLI::App& app, Action& action) {
       ->check(not_empty());
   command
       ->add_option("--on", report_arguments->on,
-                   "Also runs the extreme scenes: vulkan (the best device; the default), a name, or core")
+                   "Device that runs the extreme scenes beside the core: vulkan (the default), a name; or core")
       ->type_name("DEVICE")
       ->check(offered("core vulkan"))
       ->check(not_empty());

@@ -337,9 +337,9 @@ GripperState Measurements::state(const InputReport& report) noexcept {
   last_time_ = report.time;
   last_sequence_ = report.sequence;
   GripperState state;
-  for (std::size_t axis = 0; axis < 3; ++axis) state.position[axis] = report.position[axis] / METRE;
+  for (std::size_t axis = 0; axis < 3; ++axis) state.position[axis] = report.position[axis] / METER;
   if (has_rotation_) state.rotation = rotation_of(report.quaternion);
-  state.gap = report.gap / METRE;
+  state.gap = report.gap / METER;
   state.buttons = report.buttons;
   state.sequence = report.sequence;
   state.time = static_cast<double>(time_) / SECOND;
@@ -352,10 +352,10 @@ InputReport report_of(const GripperState& state) noexcept {
   report.sequence = state.sequence;
   report.time = static_cast<std::uint32_t>(std::llround(std::fmod(state.time * SECOND, 4294967296.0)));
   for (std::size_t axis = 0; axis < 3; ++axis)
-    report.position[axis] = clamped(std::round(state.position[axis] * METRE), MOST_POSITION);
+    report.position[axis] = clamped(std::round(state.position[axis] * METER), MOST_POSITION);
   const std::array<double, 4> quaternion = quaternion_of(state.rotation);
   for (std::size_t i = 0; i < 4; ++i) report.quaternion[i] = clamped(std::round(quaternion[i] * QUATERNION_ONE), QUATERNION_ONE);
-  report.gap = std::max(clamped(std::round(state.gap * METRE), MOST_GAP), LEAST_GAP);
+  report.gap = std::max(clamped(std::round(state.gap * METER), MOST_GAP), LEAST_GAP);
   report.buttons = state.buttons;
   return report;
 }
@@ -373,7 +373,7 @@ GripperLimits limits_of(const Identity& identity, const std::string& address) {
   limits.address = address;
   limits.force = identity.force / NEWTON;
   limits.grip = identity.grip / NEWTON;
-  limits.gap = {identity.gap[0] / METRE, identity.gap[1] / METRE};
+  limits.gap = {identity.gap[0] / METER, identity.gap[1] / METER};
   limits.rate = identity.rate;
   limits.has_rotation = (identity.flags & HAS_ROTATION) != 0;
   limits.is_left_handed = (identity.flags & LEFT_HANDED) != 0;

@@ -31,7 +31,7 @@ using WatchdogBytes = std::array<std::uint8_t, WATCHDOG_SIZE>;
 using Bytes = std::span<const std::uint8_t>;
 
 // Units of the integers on the wire.
-constexpr double METRE = 1e9, NEWTON = 1e6, SECOND = 1e6;
+constexpr double METER = 1e9, NEWTON = 1e6, SECOND = 1e6;
 constexpr double QUATERNION_ONE = 1 << 30;
 
 // Largest allowed numbers, in those units; a report beyond them is rejected whole.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Passes messages of a running live session from the recorder's thread to the main one.
+// Passes messages of a running live session to the main thread: ticks from the recorder's thread, advice from the one that computes it.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,7 @@ class LiveRun {
   LiveRun(const Scene& scene, Gripper& gripper, const LiveRunOptions& options);
 
   const LiveScene& live() const { return session_.live(); }
-  // Before run(). The display must outlive this.
+  // Before run(). The display must live until run() has returned.
   void add(Display& display) { displays_.push_back(&display); }
   // A line for the report.
   void add_note(const std::string& line) { notes_.push_back(line); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a measurement must be: the guard of a gripper checks it in a session with a loop, and the caller where there is none.
+// What a measurement must be. In a session with a loop the guard checks that it is finite and its rotation one; a caller that steps a session by itself
+// checks its reach too.
 #pragma once
 
 #include <algorithm>

@@ -103,7 +103,11 @@ std::vector<HeldBall> held_vessel(const VesselData& vessel, const GripInput& gri
   const Vec3 middle(0, grip.height, 0);
   std::vector<HeldBall> balls;
   if (vessel.mesh) {
-    for (const Triple& point : surface_points(*vessel.mesh->body)) balls.push_back({Mirror(handedness).in(point)-middle, 0});
+    const Mirror mirror(handedness);
+    for (const Triple& point : surface_points(*vessel.mesh->body)) {
+      const Vec3 place = mirror.in(point);
+      balls.push_back({place - middle, 0});
+    }
     return balls;
   }
   const PreparedVessel prepared = prepare_vessel(vessel, false);

@@ -191,7 +191,7 @@ class Explainer {
   void liquid(const Measured& as_is) {
     if (scene_.liquid) return;
     if (std::any_of(scene_.vessels.begin(), scene_.vessels.end(), [](const VesselData& v) { return !v.has_cavity(); })) {
-      say("  the liquid kernels and their tables: a vessel without a wall and a mesh without an inner outline hold no liquid\n");
+      say("  the liquid: a vessel without a wall and a mesh without an inner outline hold no liquid\n");
       return;
     }
     // its forces need tilts: both ways have those of the row above where the scene has none
@@ -200,7 +200,7 @@ class Explainer {
     Scene wet = dry;
     wet.liquid = LiquidData{};
     wet.liquid->fills = {0, 0.25, 0.5, 0.75, 1};
-    row("the liquid: its kernels, tables and four of five fills", measure(wet, make_field_set(kept_fields(), wet), OUTLINE_COPIED),
+    row("the liquid: its states at four of five fills", measure(wet, make_field_set(kept_fields(), wet), OUTLINE_COPIED),
         scene_.tilts.empty() ? measure(dry, make_field_set(kept_fields(), dry), OUTLINE_COPIED) : as_is,
         scene_.tilts.empty() ? "5 fills and 31 tilts" : "5 fills");
   }

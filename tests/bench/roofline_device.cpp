@@ -22,16 +22,6 @@ constexpr int LEAST_ROUNDS = 4;           // of a vessel,
 constexpr double LEAST_SECONDS = 0.2;     // and as many more as this takes
 constexpr std::size_t GPU_REPEATS = 120;  // of the sample: a GPU wants many grips at once to be busy
 
-// All that count but the liquid, which a program computes when it is made, with nowhere to count.
-std::span<const EmbeddedShader> counting_kernels() {
-  static const std::vector<EmbeddedShader> KERNELS = [] {
-    std::vector<EmbeddedShader> kernels(lane_shaders().begin(), lane_shaders().end());
-    std::erase_if(kernels, [](const EmbeddedShader& shader) { return shader.name == "liquid"; });
-    return kernels;
-  }();
-  return KERNELS;
-}
-
 // As often as a buffer of the device has room for.
 std::size_t repeats(const host::DeviceInfo& device, std::size_t bytes_per_grip) {
   if (device.kind == host::DeviceKind::cpu) return 1;
@@ -44,7 +34,7 @@ class DeviceRun {
   DeviceRun(const Options& options, const Workload& workload, Precision precision, bool counting)
       : workload_(workload), real_(real_bytes(precision)) {
     on_device_.precision = precision;
-    if (counting) on_device_.shaders = counting_kernels();
+    if (counting) on_device_.shaders = lane_shaders();
     const auto core = make_core_evaluator(workload.scene);
     const host::SceneArrays arrays = host::make_scene_arrays(workload.scene, *core, {});
     program_ = std::make_unique<host::GripProgram>(workload.scene, arrays, workload.fields, options.device, on_device_);

@@ -69,7 +69,6 @@ void expect_parity(const Scene& scene, const std::string& name, int count) {
       const auto grips = grips_of(scene, v, count);
       const GatheredPlanes device = gather(*backend, v, grips);
       comparer.add(v, grips, device, gather(*core, fields, v, grips));
-      comparer.add_liquid(v, backend->liquid(v), core_liquid(scene, *core, v));
       for (std::size_t i = 0; i < grips.size(); ++i)
         feasible += (device.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE ? 1 : 0;
     }

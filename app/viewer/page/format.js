@@ -13,7 +13,7 @@ export function fixed(value, digits = 1) {
 export const millimeters = (value, digits = 1) => fixed(isNumber(value) ? value * 1e3 : null, digits);
 export const degrees = (value, digits = 0) => fixed(isNumber(value) ? value * 180 / Math.PI : null, digits);
 export const percent = (value, digits = 0) => fixed(isNumber(value) ? value * 100 : null, digits);
-export const millilitres = (value, digits = 0) => fixed(isNumber(value) ? value * 1e6 : null, digits);
+export const milliliters = (value, digits = 0) => fixed(isNumber(value) ? value * 1e6 : null, digits);
 export const whole = (value) => (isNumber(value) ? Math.round(value).toLocaleString('en') : DASH);
 
 export function clock(seconds) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The numbers beside the picture: state, hand, forces, amounts, loop; and the legend of the contact points.
-import {askedForce, degrees, element, feltForce, fixed, isNumber, millilitres, millimeters, percent, setText, whole} from './format.js';
+import {askedForce, degrees, element, feltForce, fixed, isNumber, milliliters, millimeters, percent, setText, whole} from './format.js';
 import {CONTACTS, liquidColor} from './theme.js';
 
 const WAY = 5;  // states that a session goes through until the vessel is let go
@@ -100,7 +100,7 @@ export class Panels {
       wanted.style.left = `${100 * target_m3 / most}%`;
       const value = element('output', {}), done = element('span', {class: 'done'});
       place.append(element('div', {class: 'amount'}, element('span', {class: 'name', text: liquid}),
-        element('span', {class: 'bar', 'aria-hidden': 'true'}, band, fill, wanted), element('span', {class: 'value'}, value, ` of ${millilitres(target_m3)} mL `, done)));
+        element('span', {class: 'bar', 'aria-hidden': 'true'}, band, fill, wanted), element('span', {class: 'value'}, value, ` of ${milliliters(target_m3)} mL `, done)));
       return {fill, value, done, most, tolerance, target: target_m3};
     });
     this.spilled = element('output', {});
@@ -187,10 +187,10 @@ export class Panels {
     this.amounts.forEach((row, k) => {
       const {arrived} = frame.amounts[k], isThere = Math.abs(arrived - row.target) <= row.tolerance;
       row.fill.style.width = `${100 * Math.min(1, arrived / row.most)}%`;
-      setText(row.value, millilitres(arrived));
+      setText(row.value, milliliters(arrived));
       setText(row.done, isThere ? '✓' : arrived > row.target ? 'too much' : '');
     });
-    setText(this.spilled, millilitres(frame.spilled));
+    setText(this.spilled, milliliters(frame.spilled));
     setText(this.allDone, frame.done ? 'Task done' : '');
   }
 

@@ -230,5 +230,11 @@ TEST(Recording, IsReadableWhileItIsMade) {
   EXPECT_EQ(recording.note, (folder / "a.nc.partial") + " was not finished: the session was killed, or is still running");
 }
 
+// A fuzzer whose seeds are refused at the first name reaches nothing behind it.
+TEST(Recording, SeedsOfTheFuzzerAreRead) {
+  for (const char* name : {"session", "unfinished", "cut", "empty"})
+    EXPECT_NO_THROW(read_recording(std::string(WHOLEHAND_SOURCE_DIR "/tests/fuzz/corpus/recording/") + name + ".nc")) << name;
+}
+
 }  // namespace
 }  // namespace wholehand

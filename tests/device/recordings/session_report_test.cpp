@@ -199,7 +199,7 @@ TEST(SessionReport, GraspsAreOfOneVessel) {
   EXPECT_EQ(report.grasps[1].vessel, 1);
 }
 
-TEST(SessionReport, GripLostOnTheWayIsNotAnalysed) {
+TEST(SessionReport, GripLostOnTheWayIsNotAnalyzed) {
   RecordedSession session;
   const auto turning = [](double t, Tick& tick) {
     tick.tilt = radians(60 * t);

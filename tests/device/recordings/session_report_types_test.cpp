@@ -96,7 +96,7 @@ TEST(SessionReport, WhatSaturatesWhileItIsTiltedHasNoType) {
   EXPECT_NE(session_table(session.report()).find("the feedback was at F_max for 2.000 s"), std::string::npos);
 }
 
-TEST(SessionReport, TiltsUnder30DegreesAreNotAnalysed) {
+TEST(SessionReport, TiltsUnder30DegreesAreNotAnalyzed) {
   const auto of = [](double tilt) {
     return only_grasp(tilted_session(
         radians(tilt), [](double x) { return linear_between(x, 3, 6); }, [](double x) { return linear_between(x, 0.8, 2); }));

@@ -31,7 +31,7 @@ namespace wholehand {
 namespace {
 
 constexpr double STOP = STOP_TOLERANCE_F64;
-constexpr double MICROMETRE = 1e-6;
+constexpr double MICROMETER = 1e-6;
 
 // ---- the effort of a grip, its vessel upright and empty ----
 
@@ -162,7 +162,7 @@ void edges_of_a_micrometer(const AnsweredScene& a) {
   EXPECT_EQ(a.count_feasible(), b.count_feasible());
   a.each([&](std::size_t v, std::size_t i) {
     // a micrometer on either side, met aslant
-    EXPECT_NEAR(a.real(FIELD_GAP, v, i), b.real(FIELD_GAP, v, i), 4 * MICROMETRE) << i;
+    EXPECT_NEAR(a.real(FIELD_GAP, v, i), b.real(FIELD_GAP, v, i), 4 * MICROMETER) << i;
   });
 }
 
@@ -452,7 +452,7 @@ void stiffest_gains(const AnsweredScene& a) {
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
     GripResult result;
     a.core->grip(v, a.grips[v][i], result);
-    for (const double opening : {-MICROMETRE, 0.0, MICROMETRE}) {
+    for (const double opening : {-MICROMETER, 0.0, MICROMETER}) {
       const auto force = [&](const Evaluator& of) {
         return of.state(v, a.grips[v][i], result, {}, a.scene.tilts[s], opening).feedback_force;
       };
@@ -461,7 +461,7 @@ void stiffest_gains(const AnsweredScene& a) {
       EXPECT_NEAR(force(*core), std::clamp(normal + 1e7 * opening, 0.0, max), 1e-12);
     }
   });
-  const auto pushed = core_f64::coupling_force({0, -MICROMETRE, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, 1e7, 1000);
+  const auto pushed = core_f64::coupling_force({0, -MICROMETER, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, 1e7, 1000);
   EXPECT_NEAR(pushed.y, 10, 1e-12);
 }
 
