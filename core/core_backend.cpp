@@ -13,6 +13,7 @@
 #include "base/numbers/parallel.h"
 #include "core/candidates.h"
 #include "core/fills.h"
+#include "core/gather.h"
 #include "shaders/status.h"
 
 namespace wholehand {
@@ -195,13 +196,6 @@ RunResult CoreBackend::run(const RunRequest& request) {
   return CoreRun(*evaluator_, fields_, request, threads_, scene_fills(scene_) * scene_.tilts.size()).run(threads_);
 }
 
-std::vector<LiquidResult> CoreBackend::liquid(std::size_t vessel) {
-  std::vector<LiquidResult> table;
-  if (!scene_.liquid) return table;
-  for (const double fill : vessel_fills(scene_, scene_.vessels[vessel])) {
-    for (const double tilt : scene_.tilts) table.push_back(evaluator_->liquid(vessel, fill, tilt));
-  }
-  return table;
-}
+std::vector<LiquidResult> CoreBackend::liquid(std::size_t vessel) { return core_liquid(scene_, *evaluator_, vessel); }
 
 }  // namespace wholehand

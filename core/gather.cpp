@@ -53,10 +53,12 @@ GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t
 }
 
 std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
-  std::vector<LiquidResult> states;
-  if (!scene.liquid) return states;
-  for (const double fill : vessel_fills(scene, scene.vessels[vessel]))
-    for (const double tilt : scene.tilts) states.push_back(core.liquid(vessel, fill, tilt));
+  if (!scene.liquid) return {};
+  const std::vector<double>& fills = vessel_fills(scene, scene.vessels[vessel]);
+  const std::size_t tilts = scene.tilts.size();
+  std::vector<LiquidResult> states(fills.size() * tilts);
+  in_parallel(states.size(), thread_count(),
+              [&](std::size_t state) { states[state] = core.liquid(vessel, fills[state / tilts], scene.tilts[state % tilts]); });
   return states;
 }
 

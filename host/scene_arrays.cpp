@@ -9,9 +9,9 @@
 #include <limits>
 #include <numeric>
 
-#include "base/numbers/parallel.h"
 #include "core/counted_tilts.h"
 #include "core/extreme_points.h"
+#include "core/gather.h"
 #include "core/hand_size.h"
 #include "core/mirror.h"
 #include "core/planes.h"
@@ -116,16 +116,10 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
 }
 
 void add_loads(VesselArrays& vessel, const Scene& scene, const Evaluator& core, std::size_t v) {
-  const std::size_t tilts = scene.tilts.size();
-  std::vector<LiquidResult> liquid(scene_fills(scene) * tilts);
-  if (scene.liquid) {
-    const std::vector<double>& fills = vessel_fills(scene, scene.vessels[v]);
-    in_parallel(liquid.size(), thread_count(),
-                [&](std::size_t state) { liquid[state] = core.liquid(v, fills[state / tilts], scene.tilts[state % tilts]); });
-    vessel.liquid = liquid;
-  }
+  vessel.liquid = core_liquid(scene, core, v);
+  const std::vector<LiquidResult> states = scene.liquid ? vessel.liquid : std::vector<LiquidResult>(scene.tilts.size());
   const double own = core.constants(v).mass;
-  for (const LiquidResult& state : liquid) {
+  for (const LiquidResult& state : states) {
     const double together = own + state.mass, share = together > 0 ? state.mass / together : 0;
     vessel.loads.insert(vessel.loads.end(), {together, share, share * state.lean, share * state.height});
   }

@@ -13,8 +13,8 @@
 
 namespace wholehand::host {
 
-constexpr int LOAD_STRIDE =
-    4;  // of a load: mass, the liquid's share of it, lean and height of the liquid's center of mass, both times the share
+// Of a load: mass, the liquid's share of it, lean and height of the liquid's center of mass, both times the share.
+constexpr int LOAD_STRIDE = 4;
 
 struct VesselArrays {
   Parameters<double> parameters{};
