@@ -88,14 +88,14 @@ void main() {
       finish(search, solve);
       Vec4 tilted = states_in[2u * state + 1u];
       // a basis of another load may end in a corner: an effort that is then unknown is solved from the start
-      bool is_told = search.has_basis || !search.is_warm;
+      bool is_decided = search.has_basis || !search.is_warm;
       bool is_coarse = is_rising && rises > 0 && search.has_basis;
       ONCE_IF(is_coarse) {
         uint next = highest(solve, solve.low * (Real(1) + RISE_TOLERANCE), state);
         rises = next == state ? 0 : rises - 1;
         state = next;
       }
-      if (is_coarse || !is_told) continue;
+      if (is_coarse || !is_decided) continue;
       if (is_safe) {
         if (!solve.is_enough && solve.effort > JUST_HELD) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
       } else if (!solve.is_enough && solve.effort > max(enough, worst)) {

@@ -231,8 +231,8 @@ void turn(inout Search search, inout Solve solve, bool is_new, Real tolerance, R
   search.pivots += search.is_solving ? 1 : 0;
   step(solve, tolerance, enough, too_much, search.is_solving);
   // if no column enters and the effort is not known, rounding may have accumulated: tries once more from a refined inverse
-  bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
-  if (search.is_solving && solve.done && !is_told_apart && search.pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
+  bool is_decided = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
+  if (search.is_solving && solve.done && !is_decided && search.pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
     solve.done = false;
     search.pivots = FRESH_PIVOTS;
   }

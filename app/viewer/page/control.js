@@ -20,10 +20,10 @@ function angles(rotation) {
 }
 
 export class Control {
-  constructor(about, view, trouble) {
+  constructor(about, view, showError) {
     this.limits = about.control_limits;
     this.view = view;
-    this.trouble = trouble;
+    this.showError = showError;
     const {start} = this.limits;
     this.place({...start, tilt: 0, turn: 0, ...this.kept()});
     this.sequence = 0;
@@ -182,9 +182,9 @@ export class Control {
       const began = performance.now();
       try {
         const answer = await fetch('control', {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(this.state())});
-        this.trouble(answer.ok ? '' : (await answer.text()).trim());
+        this.showError(answer.ok ? '' : (await answer.text()).trim());
       } catch (error) {
-        this.trouble('wholehand does not answer any more.');
+        this.showError('wholehand does not answer any more.');
         break;
       }
       await new Promise((done) => setTimeout(done, Math.max(0, INTERVAL - (performance.now() - began))));

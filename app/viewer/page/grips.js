@@ -15,17 +15,17 @@ const slider = (id, label, max, step) => {
 
 export class Grips {
   // `frame(frame, grip)` shows one; `curve(records, tilt)` draws the forces over the tilt.
-  constructor(about, frame, curve, trouble) {
+  constructor(about, frame, curve, showError) {
     this.about = about;
     this.curve = curve;
-    this.trouble = trouble;
+    this.showError = showError;
     this.chosen = 0;
     this.curves = new Map();
     this.largestTilt = Math.max(...(about.tilts.length ? about.tilts : NO_TILT));
     this.states = new States((found, [grip]) => {
       frame(found, about.grips[grip]);
       this.showCurve();
-    }, trouble);
+    }, showError);
     this.makeSliders(document.getElementById('held'));
     if (about.grips.length > 1) this.makeList(document.getElementById('grips'));
     this.makeTerms(document.getElementById('score'));
@@ -161,7 +161,7 @@ export class Grips {
         this.showCurve();
       } catch (error) {
         this.curves.delete(key);
-        this.trouble(error.message);
+        this.showError(error.message);
       }
     }, 150);
   }

@@ -17,8 +17,8 @@ const find = (id) => document.getElementById(id);
 
 let noPicture = '';  // why there is none: that stays
 
-function trouble(text) {
-  const place = find('trouble'), said = text || noPicture;
+function showError(text) {
+  const place = find('error'), said = text || noPicture;
   if (place.textContent !== said) place.textContent = said;
   place.hidden = !said;
 }
@@ -28,7 +28,7 @@ function makeView(about) {
     return new View(find('view'), about);
   } catch (error) {
     noPicture = error.message;
-    trouble('');
+    showError('');
     return null;
   }
 }
@@ -116,7 +116,7 @@ function startLive(parts, show) {
   const history = window.wholehand.history = new History();
   const drawCharts = seldom(CHARTS_EVERY, (frame) => charts.show(history.records, frame.t));
   charts.live = true;
-  if (about.control && view) parts.control = new Control(about, view, trouble);
+  if (about.control && view) parts.control = new Control(about, view, showError);
   listen((frame) => {
     history.push(frame);
     show(frame);
@@ -136,10 +136,10 @@ async function startRecording(parts, show) {
   });
   const recording = new Recording(about.duration, about.rate, () => parts.playback && drawCharts());
   parts.playback = new Playback(recording, (frame) => {
-    trouble('');
+    showError('');
     show(frame);
     drawCharts();
-  }, trouble);
+  }, showError);
   const bindings = parts.playback.keys();
   await parts.playback.seek(0);
   return bindings;
@@ -149,9 +149,9 @@ function startGrips(parts, show) {
   const {about, charts} = parts;
   find('chart-title').textContent = 'Over the tilt';
   parts.grips = new Grips(about, (frame, grip) => {
-    trouble('');
+    showError('');
     show(frame, grip);
-  }, (records, tilt) => charts.show(records || [], tilt), trouble);
+  }, (records, tilt) => charts.show(records || [], tilt), showError);
   find('chart-panel').hidden = parts.grips.largestTilt === 0;
   const bindings = parts.grips.keys();
   parts.grips.choose(0);
@@ -186,4 +186,4 @@ async function start() {
   countPictures(view, panels);
 }
 
-start().catch((error) => trouble(error.message));
+start().catch((error) => showError(error.message));

@@ -8,10 +8,10 @@ const NUDGE = 0.1, LEAP = 1;  // s, by keys
 
 export class Playback {
   // `frame` is called with each frame to show.
-  constructor(recording, frame, trouble) {
+  constructor(recording, frame, showError) {
     this.recording = recording;
     this.frame = frame;
-    this.trouble = trouble;
+    this.showError = showError;
     this.t = 0;
     this.isPlaying = false;
     this.runs = 0;  // times that it was played; a step of an earlier one is none any more
@@ -31,7 +31,7 @@ export class Playback {
     this.recording.overview().then((frames) => {
       this.frames = frames;
       this.drawStates();
-    }, () => {});  // without it the strip is empty; the stretches report trouble
+    }, () => {});  // without it the strip is empty; the stretches report errors
   }
 
   // Each state is a band with its own height and color.
@@ -87,7 +87,7 @@ export class Playback {
       this.recording.at(t).then(() => this.goOn(run), (error) => {
         if (run !== this.runs) return;
         this.pause();
-        this.trouble(error.message);
+        this.showError(error.message);
       });
       return;
     }
@@ -101,14 +101,14 @@ export class Playback {
   // Answers when that frame is shown.
   async seek(t) {
     this.t = Math.max(0, Math.min(this.recording.duration, t));
-    const wish = this.t;
+    const asked = this.t;
     this.showTime();
     try {
-      const frame = await this.recording.at(wish);
-      if (wish === this.t) this.frame(frame);
+      const frame = await this.recording.at(asked);
+      if (asked === this.t) this.frame(frame);
       return frame;
     } catch (error) {
-      this.trouble(error.message);
+      this.showError(error.message);
       return null;
     }
   }

@@ -35,8 +35,8 @@ const tableMaterial = (radius) => new THREE.ShaderMaterial({
 
 // Whether pictures are computed without a graphics card; `?quality=high` or `low` in the address comes first.
 function isPlain() {
-  const wish = new URLSearchParams(location.search).get('quality');
-  if (wish) return wish === 'low';
+  const quality = new URLSearchParams(location.search).get('quality');
+  if (quality) return quality === 'low';
   const probe = document.createElement('canvas').getContext('webgl'), about = probe && probe.getExtension('WEBGL_debug_renderer_info');
   const name = about ? probe.getParameter(about.UNMASKED_RENDERER_WEBGL) : '';
   if (probe) probe.getExtension('WEBGL_lose_context').loseContext();
@@ -44,8 +44,8 @@ function isPlain() {
 }
 
 function makeRenderer(canvas, plain) {
-  const wish = {alpha: false, antialias: !plain, powerPreference: 'high-performance'};
-  const context = canvas.getContext('webgl2', wish) || canvas.getContext('webgl', wish);
+  const options = {alpha: false, antialias: !plain, powerPreference: 'high-performance'};
+  const context = canvas.getContext('webgl2', options) || canvas.getContext('webgl', options);
   if (!context) throw new Error('This browser has no WebGL. The page shows the numbers, but it cannot draw the picture.');
   const renderer = new THREE.WebGLRenderer({canvas, context});
   renderer.gammaOutput = true;

@@ -114,7 +114,7 @@ export class Recording {
     return Math.floor(Math.max(0, Math.min(t, this.duration - 1e-9)) / STRETCH);
   }
 
-  // Once for each stretch: trouble is reported when it is that stretch's turn.
+  // Once for each stretch: an error is reported when it is that stretch's turn.
   ahead(number) {
     if (this.aheadOf === number) return;
     this.aheadOf = number;
@@ -143,12 +143,12 @@ export class Recording {
   }
 }
 
-// The frame of a grip; asked for one at a time, the newest wish first.
+// The frame of a grip; asked for one at a time, the newest request first.
 export class States {
-  constructor(frame, trouble) {
+  constructor(frame, showError) {
     this.frame = frame;
-    this.trouble = trouble;
-    this.wish = null;
+    this.showError = showError;
+    this.request = null;
     this.isAsking = false;
   }
 
@@ -158,19 +158,19 @@ export class States {
   }
 
   ask(grip, fill, tilt) {
-    this.wish = [grip, fill, tilt];
+    this.request = [grip, fill, tilt];
     if (!this.isAsking) this.go();
   }
 
   async go() {
     this.isAsking = true;
-    while (this.wish) {
-      const wish = this.wish;
-      this.wish = null;
+    while (this.request) {
+      const request = this.request;
+      this.request = null;
       try {
-        this.frame(await States.fetch(...wish), wish);
+        this.frame(await States.fetch(...request), request);
       } catch (error) {
-        this.trouble(error.message);
+        this.showError(error.message);
       }
     }
     this.isAsking = false;

@@ -172,13 +172,13 @@ class ThePageAsGripper(ViewerTest):
         page.evaluate("wholehand.control.limits.opening_N_m = 600")
         slide(page, "control-close", 0)
 
-    def test_trouble_is_over_when_a_control_is_taken(self):
+    def test_an_error_is_over_when_a_control_is_taken(self):
         page = self.open(self.live)
         page.wait("wholehand.control")
-        page.evaluate("wholehand.control.trouble('one line')")
-        self.assertFalse(page.evaluate("document.getElementById('trouble').hidden"))
+        page.evaluate("wholehand.control.showError('one line')")
+        self.assertFalse(page.evaluate("document.getElementById('error').hidden"))
         page.key("e")
-        page.wait("document.getElementById('trouble').hidden")
+        page.wait("document.getElementById('error').hidden")
 
     def test_touch_does_the_same(self):
         page = self.open(self.live, 420, 800)

@@ -51,14 +51,14 @@ TEST(Interrupt, SecondSignalIsItsWhoTakesIt) {
   guard.on_second_signal([](int signal) { taken = signal; });
   raise(SIGINT);
   raise(SIGTERM);
-  EXPECT_EQ(taken, 0) << "one wish";
+  EXPECT_EQ(taken, 0) << "one request";
   usleep(300000);
   raise(SIGTERM);
   EXPECT_EQ(taken, SIGTERM);
 }
 
 // As `timeout` sends it: to the process and to its group.
-TEST(Interrupt, SignalThatComesTwiceIsOneWish) {
+TEST(Interrupt, SignalThatComesTwiceIsOneRequest) {
   const pid_t child = fork();
   if (child == 0) {
     InterruptGuard guard;

@@ -165,7 +165,7 @@ TEST(Guard, ARefusedMeasurementIsForgotten) {
 
 // ---- limits ----
 
-// A constant wish: at tick n no more than the ramp's share, in its direction, and all of it once the ramp is over.
+// A constant request: at tick n no more than the ramp's share, in its direction, and all of it once the ramp is over.
 TEST(Guard, RampsUpFromZero) {
   LiveData live;
   Guard guard(live, limits_of(12, 8));
