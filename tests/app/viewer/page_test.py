@@ -51,6 +51,8 @@ def luminance(color):
 
 
 class ThePage(ViewerTest):
+    scale = 0.5
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -62,7 +64,7 @@ class ThePage(ViewerTest):
         for name, served in self.pages.items():
             page = self.open(served)
             for width in WIDTHS:
-                page.resize(width, 800)
+                page.resize(width, 800, self.scale)
                 page.wait(f"innerWidth === {width}")
                 wide = page.evaluate("Math.max(document.documentElement.scrollWidth, document.body.scrollWidth, document.getElementById('panels').scrollWidth)")
                 self.assertLessEqual(wide, width, f"{name} at {width}")
@@ -71,7 +73,7 @@ class ThePage(ViewerTest):
                 self.assertEqual(over, 0, f"{name} at {width}")
                 seen = page.evaluate("(({width, height}) => [width, height])(wholehand.camera().rectangle)")
                 self.assertTrue(seen[0] >= min(width, 400) and seen[1] >= 200, f"{name} at {width}: {seen}")
-                page.wait(f"wholehand.charts.canvas.width === wholehand.charts.canvas.clientWidth", what="the charts' new size")
+                page.wait("Math.abs(wholehand.charts.canvas.width - wholehand.charts.canvas.clientWidth * devicePixelRatio) < 1", what="the charts' new size")
                 if width >= 1280:  # narrower, the header's names and the list's may be shortened
                     self.assertEqual(page.evaluate(CUT), [], f"{name} at {width}")
                 self.assertEqual(page.evaluate(CUT_IN_CHARTS), [], f"{name} at {width}")
@@ -208,12 +210,12 @@ class ThePage(ViewerTest):
         apart = page.evaluate("Math.hypot(...wholehand.frame.wrist.map((v, k) => v - wholehand.frame.rigged_wrist[k]))")
         self.assertGreater(apart, 1e-5, "the hand is squeezed")
 
-    def test_trouble_is_over_when_a_frame_is_shown_again(self):
+    def test_an_error_is_over_when_a_frame_is_shown_again(self):
         page = self.open(self.pages["recording"])
-        page.evaluate("wholehand.playback.trouble('one line')")
-        self.assertFalse(page.evaluate("document.getElementById('trouble').hidden"))
+        page.evaluate("wholehand.playback.showError('one line')")
+        self.assertFalse(page.evaluate("document.getElementById('error').hidden"))
         page.evaluate("wholehand.playback.seek(1)")
-        page.wait("document.getElementById('trouble').hidden")
+        page.wait("document.getElementById('error').hidden")
 
     def test_without_a_picture_the_reason_stays(self):
         page = self.browser.open("about:blank")
@@ -222,11 +224,11 @@ class ThePage(ViewerTest):
           HTMLCanvasElement.prototype.getContext = function(kind, ...rest) { return kind.includes('webgl') ? null : getContext.call(this, kind, ...rest); };""")
         page.go(self.pages["recording"].address)
         page.wait("window.wholehand && wholehand.frame", what="the numbers")
-        said = page.evaluate("document.getElementById('trouble').textContent")
+        said = page.evaluate("document.getElementById('error').textContent")
         self.assertIn("WebGL", said)
-        page.evaluate("wholehand.playback.trouble('one line')")
+        page.evaluate("wholehand.playback.showError('one line')")
         page.evaluate("wholehand.playback.seek(1)")
-        page.wait(f"wholehand.frame.t > 0.9 && document.getElementById('trouble').textContent === {said!r}")
+        page.wait(f"wholehand.frame.t > 0.9 && document.getElementById('error').textContent === {said!r}")
 
     def test_playing_stops_where_the_server_is_gone(self):
         served = self.serve("view", RECORDING)
@@ -237,7 +239,7 @@ class ThePage(ViewerTest):
         page.evaluate("wholehand.playback.recording.ready.clear(), wholehand.playback.recording.stretches.clear()")
         page.evaluate("document.getElementById('play').click()")
         page.wait("!wholehand.playback.isPlaying", what="a pause")
-        self.assertIn("does not answer", page.evaluate("document.getElementById('trouble').textContent"))
+        self.assertIn("does not answer", page.evaluate("document.getElementById('error').textContent"))
         self.assertEqual(page.evaluate("document.getElementById('play').getAttribute('aria-label')"), "Play")
 
     def test_a_change_of_state_is_said(self):
@@ -253,8 +255,8 @@ class ThePage(ViewerTest):
         page.wait("window.wholehand && wholehand.frame")
         self.assertEqual(served.stop(), 0)
         page.evaluate("document.getElementById('tilt').value = 20, document.getElementById('tilt').dispatchEvent(new Event('input'))")
-        page.wait("!document.getElementById('trouble').hidden")
-        self.assertIn("does not answer", page.evaluate("document.getElementById('trouble').textContent"))
+        page.wait("!document.getElementById('error').hidden")
+        self.assertIn("does not answer", page.evaluate("document.getElementById('error').textContent"))
 
 
 if __name__ == "__main__":

@@ -95,7 +95,7 @@ TEST(NaturalScenes, TheStateThatADeviceNamesIsTheWorst) {
 }
 
 TEST(NaturalScenes, TheCheckHolds) {
-  const std::uint64_t scenes = asked("WHOLEHAND_NATURAL_SCENES", 8), first = asked("WHOLEHAND_NATURAL_SEED", 0);
+  const std::uint64_t scenes = asked("WHOLEHAND_NATURAL_SCENES", 5), first = asked("WHOLEHAND_NATURAL_SEED", 0);
   std::uint64_t grips = 0, feasible = 0, excluded = 0;
   for (std::uint64_t seed = first; seed < first + scenes; ++seed) {
     const Scene scene = natural_scene(seed);

@@ -165,7 +165,8 @@ TEST(FewEfforts, LeaveTheListsOfRandomScenes) {
     scene.output.best = 3;
     scene.output.apart = 0;
     SCOPED_TRACE(seed);
-    unjudged += expect_same_lists("vulkan", scene);
+    unjudged += expect_same_lists("core", scene);
+    if (scenes % 3 == 0) unjudged += expect_same_lists("vulkan", scene);  // which compiles its kernels for each
   }
   EXPECT_GT(unjudged, 100u);
 }
