@@ -15,7 +15,7 @@ set(with_all ALL)
 if(WHOLEHAND_SANITIZE OR WHOLEHAND_FUZZ)
   set(with_all "")  # nobody installs these
 endif()
-add_custom_target(packaging ${with_all} DEPENDS wholehand wholehand_library)
+add_custom_target(packaging ${with_all} DEPENDS wholehand)
 
 # ---- program, and the scenes that it and the library find at share/wholehand (core/reader/shipped.cpp) ----
 install(TARGETS wholehand RUNTIME COMPONENT program)
@@ -55,20 +55,23 @@ install_completion(zsh zsh/vendor-completions _wholehand)  # Debian's; elsewhere
 install_completion(fish fish/vendor_completions.d wholehand.fish)
 
 # ---- library: the C face; development: its header, and how a build finds it ----
-set_target_properties(wholehand_library PROPERTIES EXPORT_NAME wholehand)
-target_include_directories(wholehand_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-install(TARGETS wholehand_library EXPORT wholehandTargets
-  LIBRARY COMPONENT library NAMELINK_COMPONENT development)
-install(FILES app/c/wholehand/wholehand.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/wholehand" COMPONENT development)
-install(EXPORT wholehandTargets NAMESPACE wholehand:: DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
+if(TARGET wholehand_library)
+  add_dependencies(packaging wholehand_library)
+  set_target_properties(wholehand_library PROPERTIES EXPORT_NAME wholehand)
+  target_include_directories(wholehand_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  install(TARGETS wholehand_library EXPORT wholehandTargets
+    LIBRARY COMPONENT library NAMELINK_COMPONENT development)
+  install(FILES app/c/wholehand/wholehand.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/wholehand" COMPONENT development)
+  install(EXPORT wholehandTargets NAMESPACE wholehand:: DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
+  cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" OUTPUT_VARIABLE WHOLEHAND_FROM_PC)
+  configure_file(cmake/package/wholehand.pc.in "${packaging_dir}/wholehand.pc" @ONLY)
+  install(FILES "${packaging_dir}/wholehand.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
+endif()
 configure_package_config_file(cmake/package/wholehandConfig.cmake.in "${packaging_dir}/wholehandConfig.cmake"
   INSTALL_DESTINATION "${WHOLEHAND_PACKAGE_DIR}")
 write_basic_package_version_file("${packaging_dir}/wholehandConfigVersion.cmake" COMPATIBILITY SameMinorVersion)  # before 1.0 each may break
 install(FILES "${packaging_dir}/wholehandConfig.cmake" "${packaging_dir}/wholehandConfigVersion.cmake"
   DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
-cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" OUTPUT_VARIABLE WHOLEHAND_FROM_PC)
-configure_file(cmake/package/wholehand.pc.in "${packaging_dir}/wholehand.pc" @ONLY)
-install(FILES "${packaging_dir}/wholehand.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
 
 # ---- development, too: base/, core/, host/ and sweeps/ but for the cluster, for programs in C++ (docs/library.md) ----
 set(cpp_folders ${WHOLEHAND_FOLDERS})

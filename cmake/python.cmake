@@ -9,6 +9,7 @@ find_package(pybind11 2.10 REQUIRED)
 
 wholehand_folder(app/python USES device/session sweeps/run evidence/check app/program
   LINKS fmt::fmt pybind11::headers Python::Module)
+target_compile_definitions(app_python PRIVATE ${WHOLEHAND_PARTS})
 add_library(wholehand_python MODULE $<TARGET_OBJECTS:app_python>)
 set_target_properties(wholehand_python PROPERTIES PREFIX "" OUTPUT_NAME _core SUFFIX ".${Python_SOABI}.so"
   LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/python" LINK_DEPENDS "${PROJECT_SOURCE_DIR}/app/python/exported.map")

@@ -16,11 +16,10 @@
 #include "app/commands/driver_watch.h"
 #include "app/commands/result_scene.h"
 #include "app/commands/validators.h"
+#include "app/commands/view_grip.h"
 #include "app/program/remedy.h"
 #include "app/program/values.h"
 #include "app/program/vulkan_environment.h"
-#include "app/viewer/grips.h"
-#include "app/viewer/serve_view.h"
 #include "base/files/files.h"
 #include "base/system/output.h"
 #include "base/text/printable.h"
@@ -209,7 +208,7 @@ ExitCode grip(const GripArguments& given) {
   GripArguments arguments = given;
   if (arguments.on == ON_AUTO) arguments.on = "core";
   prepare_vulkan_environment(arguments.on);
-  const int port = parse_view_port(arguments.view_port, arguments.view);
+  [[maybe_unused]] const int port = parse_view_port(arguments.view_port, arguments.view);
   auto [scene, vessel, input] = arguments.rank.empty() ? asked_grip(arguments) : ranked_grip(arguments);
   const StateAxes axes = read_states(arguments, scene, vessel);
   Precision precision = arguments.on == "core" ? Precision::full : Precision::single;
@@ -236,11 +235,9 @@ ExitCode grip(const GripArguments& given) {
   for (const std::string& path : {arguments.glb, arguments.svg}) {
     if (!path.empty() && !arguments.json) print(fmt::format("wrote {}\n", one_line(path)));
   }
-  if (arguments.view) {
-    std::vector<std::string> notes;
-    const GripsView view(scene, {{vessel, input, report.vessel}}, notes);
-    serve_view(view.content(scene.name, axes), port, arguments.json);
-  }
+#ifdef HAS_VIEWER
+  if (arguments.view) view_grip(scene, vessel, input, report.vessel, axes, port, arguments.json);
+#endif
   return report.answer.result.reason == Reason::none ? ExitCode::done : ExitCode::no;
 }
 
@@ -294,8 +291,10 @@ void add_grip_command(CLI::App& app, Action& action) {
                     "Measure the grasp as Ferrari and Canny do: epsilon and the volume of the wrenches; takes seconds");
   add("--glb", arguments->glb, "FILE", "Write the hand, the vessel and the liquid as glTF binary")->check(not_empty());
   add("--svg", arguments->svg, "FILE", "Write a drawing with the front, side and top view")->check(not_empty());
+#ifdef HAS_VIEWER
   command->add_flag("--view", arguments->view, "Show the grip in the browser, at any fill and tilt, until Ctrl-C");
   add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (default: any free port)")->check(not_empty());
+#endif
   command->add_flag("--json", arguments->json, "Print one JSON object, in SI units");
   command->callback([arguments, &action] { action = [arguments] { return grip(*arguments); }; });
 }

@@ -57,10 +57,12 @@ void add_live_command(CLI::App& app, Action& action) {
       "Person K of the population in the scene's [people] is the simulated user, with a hand of their own (default: the median "
       "person)");
   add("--dhd-library", options.dhd_library, "PATH", "Path of Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7");
+#ifdef HAS_VIEWER
   command->add_flag("--view", options.view, "Show the session in the browser: print the address, and open it on a desktop");
   add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (default: any free port)");
   add("--stream", options.stream, "URL",
       "Send the session to osc://HOST:PORT at display rate, for engines and patches; see docs/stream.md");
+#endif
   command->add_flag(
       "--advise", options.advise,
       "Say which grip of a near vessel would take less of the hand, while the session runs: in words, in the view and in "

@@ -62,9 +62,13 @@ ExitCode report_or_study(const SessionArguments& arguments) {
     return report_recording(arguments);
   }
   if (arguments.json) throw usage_error("--json: goes without --study; study.csv and study.nc of -o have the numbers");
+#ifdef HAS_EVIDENCE
   RecordedPeople people{arguments.recordings, arguments.folder};
   if (!arguments.seed.empty()) people.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
   return study_recordings(people);
+#else
+  throw usage_error("--study: this program is built without evidence (WHOLEHAND_EVIDENCE)");
+#endif
 }
 
 }  // namespace

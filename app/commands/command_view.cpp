@@ -15,6 +15,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/result_scene.h"
 #include "app/commands/validators.h"
+#include "app/commands/view_grip.h"
 #include "app/program/values.h"
 #include "app/viewer/grips.h"
 #include "app/viewer/recording.h"
@@ -115,6 +116,13 @@ ExitCode view(const ViewArguments& arguments) {
 }
 
 }  // namespace
+
+void view_grip(const Scene& scene, std::size_t vessel, const GripInput& grip, const std::string& label, const StateAxes& axes,
+               int port, bool has_json) {
+  std::vector<std::string> notes;
+  const GripsView view(scene, {{vessel, grip, label}}, notes);
+  serve_view(view.content(scene.name, axes), port, has_json);
+}
 
 void add_view_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<ViewArguments>();

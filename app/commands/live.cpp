@@ -4,20 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
+#include "app/commands/live_displays.h"
 #include "app/commands/open_gripper.h"
-#include "app/viewer/browser.h"
-#include "app/viewer/control.h"
-#include "app/viewer/live_view.h"
-#include "app/viewer/osc_stream.h"
-#include "base/files/json.h"
 #include "base/system/output.h"
-#include "base/system/udp.h"
 #include "base/text/readable.h"
 #include "base/text/text.h"
 #include "core/meshes/vessel.h"
@@ -44,27 +37,6 @@ constexpr const char* RECORD = "--record";
 GripperLimits limits_of(const RecordedDevice& device, const std::string& address) {
   return {"recording of " + device.name, address, device.force, device.grip, device.gap, device.rate, device.has_rotation,
           device.is_left_handed};
-}
-
-// `stiffness`: N/m of the hand's gap.
-std::string limits_json(const ViewLimits& limits, double stiffness) {
-  return json_text(nlohmann::json{
-      {"gap", limits.gap},
-      {"center", limits.center},
-      {"reach", limits.reach},
-      {"opening_N_m", stiffness},
-      {"start", {{"position", limits.start.position}, {"rotation", limits.start.rotation}, {"gap", limits.start.gap}}}});
-}
-
-// A session streamed to the port on which its own hand is received would hear itself.
-void refuse_own_port(const LiveOptions& options, const HostPort& target) {
-  const std::optional<HostPort> place = osc_place(options.device);
-  if (!place || place->port != target.port) return;
-  const UdpAddress here = find_udp_address(*place, "osc"), there = find_udp_address(target, "--stream");
-  const bool is_everywhere = here.host() == "0.0.0.0" || here.host() == "::";
-  if (!(here == there) && !(is_everywhere && there.is_loopback())) return;
-  throw usage_error(fmt::format("--stream {}: --device {} listens there for its hand; give one of the two another port",
-                                options.stream, options.device));
 }
 
 bool has_places(const Scene& scene) {
@@ -100,10 +72,7 @@ std::unique_ptr<LiveAdvice> make_advice(const Scene& scene, const LiveOptions& o
 // What the options ask for, in the order in which it is opened.
 class LiveCommand {
  public:
-  explicit LiveCommand(const LiveOptions& options) : options_(options) {
-    std::optional<HostPort> target;
-    if (!options_.stream.empty()) target = parse_osc_url(options_.stream);
-    if (target) refuse_own_port(options_, *target);
+  explicit LiveCommand(const LiveOptions& options) : options_(options), displays_(options_) {
     if (!options_.record.empty()) check_recording_path(options_.record, RECORD);
     open();
     check_gripper();
@@ -111,15 +80,13 @@ class LiveCommand {
                  LiveRunOptions{options_.seconds, !options_.no_clock, options_.json, options_.record, RECORD, options_.seed,
                                 options_.person, advice_.get()});
     for (const std::string& line : notes_) run_->add_note(line);
-    if (target) open_stream(*target);
-    open_view();  // before the recording, so that a taken port leaves none behind
+    displays_.open(*run_, scene_, gripper_->limits(),
+                   input_.get());  // before the recording, so that a taken port leaves none behind
   }
 
   ExitCode run() {
     // a window opens before the session starts, so that it is seen from its beginning
-    return run_->run([this] {
-      if (view_) window_.emplace(view_->address(), options_.json);
-    });
+    return run_->run([this] { displays_.open_window(); });
   }
 
  private:
@@ -219,31 +186,6 @@ class LiveCommand {
     if (!limits.has_rotation) notes_.push_back("this gripper measures no rotation: vessels stay upright");
   }
 
-  void open_stream(const HostPort& target) {
-    stream_.emplace(target, run_->live());
-    run_->add(*stream_);
-    if (stream_->note().empty()) return;
-    print_note("live: " + stream_->note());
-    run_->add_note(stream_->note());
-  }
-
-  // The view, which listens from here on.
-  void open_view() {
-    if (!options_.view) return;
-    ViewFacts facts;
-    facts.title = scene_.name;
-    facts.device = gripper_->limits().name;
-    facts.rate = scene_.live.rate;
-    facts.most_force = gripper_->limits().grip;
-    std::function<void(const std::string&)> control;
-    if (input_) {
-      facts.control_limits = limits_json(input_->limits(), scene_.force.k_open / input_->workspace().gap_slope());
-      control = [this](const std::string& body) { input_->post(parse_view_control(body)); };
-    }
-    view_.emplace(run_->live(), facts, std::move(control), options_.view_port);
-    run_->add(*view_);
-  }
-
   LiveOptions options_;
   bool is_replay_ = false;
   Scene scene_;
@@ -252,9 +194,7 @@ class LiveCommand {
   std::unique_ptr<ViewInput> input_;    // of the page if it is the gripper
   std::unique_ptr<Gripper> gripper_;
   std::optional<LiveRun> run_;
-  std::optional<LiveView> view_;
-  std::optional<BrowserWindow> window_;
-  std::optional<OscStream> stream_;
+  LiveDisplays displays_;
 };
 
 }  // namespace

@@ -9,17 +9,25 @@ void add_all(CLI::App& app, wholehand::Action& action) {
   wholehand::add_sweep_command(app, action);
   wholehand::add_merge_command(app, action);
   wholehand::add_rank_command(app, action);
+#ifdef HAS_EVIDENCE
   wholehand::add_compare_command(app, action);
   wholehand::add_report_command(app, action);
+#endif
   wholehand::add_grip_command(app, action);
+#ifdef HAS_TRIALS
   wholehand::add_trials_command(app, action);
+#endif
+#ifdef HAS_EVIDENCE
   wholehand::add_study_command(app, action);
   wholehand::add_check_command(app, action);
   wholehand::add_error_time_command(app, action);
   wholehand::add_stability_command(app, action);
+#endif
   wholehand::add_live_command(app, action);
   wholehand::add_session_command(app, action);
+#ifdef HAS_VIEWER
   wholehand::add_view_command(app, action);
+#endif
   wholehand::add_devices_command(app, action);
   wholehand::add_new_command(app, action);
   wholehand::add_scenes_command(app, action);

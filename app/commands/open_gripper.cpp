@@ -20,6 +20,11 @@ namespace {
 
 constexpr IntegerRange OMEGA_NUMBER{0, 31};
 constexpr int ANY_PORT = 0;  // that is free
+#ifdef HAS_VIEWER
+constexpr const char* NO_VIEW = "add --view";
+#else
+constexpr const char* NO_VIEW = "this program is built without the viewer (WHOLEHAND_VIEWER)";
+#endif
 
 // PORT, of this machine alone, or HOST:PORT.
 HostPort parse_osc_place(const std::string& text) {
@@ -53,7 +58,8 @@ std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& sc
   const bool is_bare = colon == std::string::npos;
   if (device == "sim") return open_sim(scene, seed);
   if (device == "view") {
-    if (!view) throw usage_error("--device view: the page of the view is the gripper, and there is no view; add --view");
+    if (!view)
+      throw usage_error(std::string("--device view: the page of the view is the gripper, and there is no view; ") + NO_VIEW);
     return open_view(scene, *view);
   }
   if (kind == "hid" && (is_bare || !which.empty())) return open_hid(which, watchdog);

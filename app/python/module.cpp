@@ -11,6 +11,8 @@ PYBIND11_MODULE(_core, module) {
   bind_evaluate(module);
   bind_sweep(module);
   bind_grip(module);
+#ifdef HAS_EVIDENCE
   bind_check(module);
+#endif
   bind_session(module);
 }

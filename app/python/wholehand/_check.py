@@ -7,6 +7,7 @@ import json
 from typing import Any
 
 from . import _core
+from ._errors import Error
 from ._scene import SceneLike, check_types, scene as as_scene
 
 
@@ -50,9 +51,11 @@ def check(scene: SceneLike = "three_beakers", *, on: str = "vulkan") -> Check:
     Raises
     ------
     Error
-        The core as a device, a device that is not there or does not answer.
+        The core as a device, a device that is not there or does not answer, a module built without evidence.
     """
     of = as_scene(scene)
     check_types("check", on)
+    if not hasattr(_core, "check"):
+        raise Error("check: this module is built without evidence (WHOLEHAND_EVIDENCE)")
     passed, text, report = _core.check(of._core, on)
     return Check(passed, text, json.loads(report))
