@@ -1127,13 +1127,7 @@ class ClusterSweep final : public Sweep {
 
   // ---- figures of the best ----
 
-  struct CompletedGrip {
-    std::uint64_t list = 0;
-    Candidate candidate;
-    GripInput refined{};
-    double refined_score = 0;
-    RobustScore robust{};
-  };
+  int rank_of(std::size_t list) const { return static_cast<int>(list % static_cast<std::size_t>(team_.size())); }
 
   // Each rank chooses, refines and scores the grips of some of the lists. False: interrupted.
   bool complete_together(BestLists& best, InterruptGuard& interrupt) {
@@ -1148,30 +1142,21 @@ class ClusterSweep final : public Sweep {
     BestLists own(best.size());
     for (std::size_t list = 0; list < best.size(); ++list) {
       const auto grips = reader.take_all<Candidate>();
-      if (list % static_cast<std::size_t>(team_.size()) != static_cast<std::size_t>(team_.rank())) continue;
+      if (rank_of(list) != team_.rank()) continue;
       for (const Candidate& candidate : grips) own[list].push_back(bare_grip(plan(), list / plan().hand_scales(), candidate));
     }
     bool is_whole = true;
     agree([&] { is_whole = choose_best(own, interrupt); });
-    std::vector<CompletedGrip> completed;
-    for (std::size_t list = 0; list < own.size(); ++list)
-      for (const BestGrip& grip : own[list])
-        completed.push_back({list, grip.candidate, grip.refined, grip.refined_score, grip.robust});
-    if (team_.is_leader())
-      for (auto& list : best) list.clear();
-    const auto add_completed = [&](const std::vector<CompletedGrip>& grips) {
-      for (const CompletedGrip& grip : grips) {
-        BestGrip& added = best.at(grip.list).emplace_back(bare_grip(plan(), grip.list / plan().hand_scales(), grip.candidate));
-        added.refined = grip.refined;
-        added.refined_score = grip.refined_score;
-        added.robust = grip.robust;
+    for (std::size_t list = 0; list < own.size(); ++list) {
+      const int rank = rank_of(list);
+      if (team_.is_leader()) {
+        best[list] = rank == 0 ? std::move(own[list]) : PacketReader(team_.wait_for(rank)).take_all<BestGrip>();
+      } else if (rank == team_.rank()) {
+        PacketWriter completed;
+        completed.put(own[list]);
+        team_.send(completed.bytes());
       }
-    };
-    if (team_.is_leader()) add_completed(completed);
-    PacketWriter found;
-    found.put(completed);
-    team_.gather(found.bytes(),
-                 [&](int, const std::string& message) { add_completed(PacketReader(message).take_all<CompletedGrip>()); });
+    }
     return all_of(is_whole);
   }
 

@@ -56,6 +56,9 @@ struct BestGrip {
   RobustScore robust{};  // NaN in a scene without [robust]
 };
 
+// A list for each vessel and hand scale, in the order of GripLists (sweeps/result/grip_lists.h); in each the best first.
+using BestLists = std::vector<std::vector<BestGrip>>;
+
 // A candidate of the vessel, with only its place known.
 BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candidate);
 

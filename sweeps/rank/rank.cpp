@@ -351,17 +351,22 @@ Scene with_weights(const Scene& scene, const std::array<double, 6>& weights, dou
   return other;
 }
 
-// Ranks candidates by the core's robust scores.
-void rank_by_robust(const Scene& scene, const Plan& plan, const std::array<double, 6>& weights, std::size_t best,
-                    std::vector<std::vector<BestGrip>>& lists) {
+// Ranks the grips of each list by the core's robust scores; those of a list without a holding grip stay in the order of their efforts.
+void rank_held_by_robust(const Scene& scene, const Plan& plan, const std::array<double, 6>& weights, std::size_t best,
+                         const Ranking& ranking, BestLists& lists) {
   double factor = 1;
   const Scene weighted = with_weights(scene, weights, factor);
-  rank_robustly(open_core_for, weighted, plan, best, nullptr, lists);
-  for (auto& list : lists)
-    for (BestGrip& grip : list) {
+  BestLists held = lists;
+  for (std::size_t list = 0; list < lists.size(); ++list)
+    if (none_holds(ranking, list)) held[list].clear();
+  rank_robustly(open_core_for, weighted, plan, best, nullptr, held);
+  for (std::size_t list = 0; list < lists.size(); ++list) {
+    for (BestGrip& grip : held[list]) {
       grip.robust.mean *= factor;
       grip.robust.low *= factor;
     }
+    if (!none_holds(ranking, list)) lists[list] = std::move(held[list]);
+  }
 }
 
 // Goes through the grips of a vessel and offers those of its lists; counts them in the first pass. `least_bad`: those of lists without a holding
@@ -428,6 +433,45 @@ std::vector<ListProgress> rank_vessel(const SweepResult& result, const Scene& sc
   for (std::size_t k = 0; k < lists.size(); ++k)
     if (none_holds(ranking, first + k)) lists[k] = least_bad[k];
   return lists;
+}
+
+// The core for the columns that the file lacks, with a note for the user about them; null if it lacks none, or if a mesh is not there.
+std::unique_ptr<CoreBackend> open_for_missing(const SweepResult& result, const Scene& scene,
+                                              const std::function<std::shared_ptr<const Evaluator>()>& open_core,
+                                              std::string& note) {
+  std::vector<std::string> missing;
+  for (const std::string& name : row_variables(scene))
+    if (!result.find(name)) missing.push_back(name);
+  const bool has_usual = std::ranges::all_of(missing, [](const std::string& name) { return !is_usual(name); });
+  std::unique_ptr<CoreBackend> core;
+  try {
+    if (!missing.empty())
+      core = std::make_unique<CoreBackend>(open_core(), scene, make_field_set(best_fields(scene), scene), Precision::full, 0);
+    if (!has_usual)
+      note = "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
+  } catch (const Error& error) {  // a mesh is not there
+    if (!has_usual) throw;
+    note = fmt::format("{}; {} and the hold force are left empty", error.what(), joined(missing, ", "));
+  }
+  return core;
+}
+
+// The grips of a list with all reported figures: from the file, or from the core if it is not null.
+std::vector<BestGrip> with_figures(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t list,
+                                   const std::vector<BestGrip>& places, Scores& scores, CoreBackend* core) {
+  const std::size_t vessel = list / plan.hand_scales();
+  std::vector<Candidate> chosen;
+  for (const BestGrip& grip : places) {
+    chosen.push_back(grip.candidate);
+    scores.read(vessel, grip.candidate.index, 1, &chosen.back().score);
+  }
+  auto grips = core ? evaluate_best(*core, scene, plan, vessel, chosen) : read_rows(result, scene, plan, vessel, chosen);
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    grips[i].candidate = chosen[i];
+    grips[i].rank = i + 1;
+    grips[i].robust = places[i].robust;
+  }
+  return grips;
 }
 
 }  // namespace
@@ -549,58 +593,23 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
   RankKeys keys(result, scores, request.by);
   const std::vector<WhereName> names = where_names(result, scene, plan);
   const std::unique_ptr<const Where> where = request.where.empty() ? nullptr : std::make_unique<Where>(request.where, names);
-  const std::size_t scales = plan.hand_scales(), lists = scene.vessels.size() * scales;
+  const std::size_t lists = scene.vessels.size() * plan.hand_scales();
   const std::vector<std::uint64_t> none(lists, 0);
   Ranking ranking{{}, none, none, none, none, ""};
   const bool is_robust = request.by == RankBy::robust;
   const std::shared_ptr<const Evaluator> posing = request.apart > 0 || is_robust ? open_core() : nullptr;
-  std::vector<ListProgress> best;
+  BestLists places;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v)
-    for (ListProgress& list : rank_vessel(result, scene, plan, v, keys, where.get(), request, posing.get(), ranking))
-      best.push_back(std::move(list));
-  const auto rows = row_variables(scene);
-  std::vector<std::string> missing;
-  for (const std::string& name : rows)
-    if (!result.find(name)) missing.push_back(name);
-  const bool has_usual = std::ranges::all_of(missing, [](const std::string& name) { return !is_usual(name); });
-  std::unique_ptr<CoreBackend> core;
-  try {
-    if (!missing.empty()) {
-      core = std::make_unique<CoreBackend>(posing ? posing : open_core(), scene, make_field_set(best_fields(scene), scene),
-                                           Precision::full, 0);
+    for (const ListProgress& list : rank_vessel(result, scene, plan, v, keys, where.get(), request, posing.get(), ranking)) {
+      places.emplace_back();
+      for (const Candidate& candidate : list.chosen) places.back().push_back(bare_grip(plan, v, candidate));
     }
-    if (!has_usual)
-      ranking.note =
-          "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
-  } catch (const Error& error) {  // a mesh is not there
-    if (!has_usual) throw;
-    ranking.note = fmt::format("{}; {} and the hold force are left empty", error.what(), joined(missing, ", "));
-  }
-  std::vector<std::vector<BestGrip>> places(lists);
-  for (std::size_t list = 0; list < lists; ++list)
-    for (const Candidate& candidate : best[list].chosen) places[list].push_back(bare_grip(plan, list / scales, candidate));
-  if (is_robust) {
-    std::vector<std::vector<BestGrip>> held = places;  // those that do not hold stay in the order of their efforts
-    for (std::size_t list = 0; list < lists; ++list)
-      if (none_holds(ranking, list)) held[list].clear();
-    rank_by_robust(scene, plan, scores.weights(), request.best, held);
-    for (std::size_t list = 0; list < lists; ++list)
-      if (!none_holds(ranking, list)) places[list] = std::move(held[list]);
-  }
+  const std::unique_ptr<CoreBackend> core = open_for_missing(
+      result, scene, [&] { return posing ? posing : open_core(); }, ranking.note);
+  if (is_robust) rank_held_by_robust(scene, plan, scores.weights(), request.best, ranking, places);
   for (std::size_t list = 0; list < lists; ++list) {
-    std::vector<Candidate> chosen;
-    for (const BestGrip& grip : places[list]) {
-      chosen.push_back(grip.candidate);
-      scores.read(list / scales, grip.candidate.index, 1, &chosen.back().score);
-    }
-    auto grips =
-        core ? evaluate_best(*core, scene, plan, list / scales, chosen) : read_rows(result, scene, plan, list / scales, chosen);
-    for (std::size_t i = 0; i < grips.size(); ++i) {
-      grips[i].candidate = chosen[i];
-      grips[i].score = none_holds(ranking, list) ? 0 : chosen[i].score;
-      grips[i].rank = i + 1;
-      grips[i].robust = places[list][i].robust;
-    }
+    std::vector<BestGrip> grips = with_figures(result, scene, plan, list, places[list], scores, core.get());
+    for (BestGrip& grip : grips) grip.score = none_holds(ranking, list) ? 0 : grip.candidate.score;
     if (scores.is_sweeps_own()) {
       set_refined(result, plan, list, grips);
       if (!is_robust) set_robust(result, plan, list, grips);

@@ -3,12 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/backend.h"
-#include "sweeps/lists/best.h"
 #include "sweeps/plan/plan.h"
 #include "sweeps/plan/variables.h"
 #include "sweeps/plan/vessel_facts.h"
@@ -24,15 +22,6 @@ struct ResultContents {
   BackendInfo info;
   std::string version;
   std::size_t best = 0;  // ranks of the best grips
-};
-
-// One of the best grips, as the result file stores it.
-struct RankedGrip {
-  Candidate candidate;
-  GripInput grip;
-  GripInput refined{};
-  double refined_score = std::numeric_limits<double>::quiet_NaN();  // and then there is no refined grip
-  RobustScore robust{};
 };
 
 // Dimensions of the grips: those of the plan's axes, or "point" for Sobol points.

@@ -367,7 +367,7 @@ void ResultFile::start_sync() {
   sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);  // a hint: sync() is what counts
 }
 
-void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, double wall_seconds, double kernel_seconds) {
+void ResultFile::write_ending(const BestLists& best, double wall_seconds, double kernel_seconds) {
   const Stopwatch stopwatch(seconds_);
   const std::size_t ranks = contents_.best;
   for (std::size_t list = 0; list < best.size() && ranks > 0; ++list) {
@@ -375,7 +375,7 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
     std::vector<std::vector<double>> reals(places_.best.size() - 1,
                                            std::vector<double>(ranks, std::numeric_limits<double>::quiet_NaN()));
     for (std::size_t rank = 0; rank < std::min(ranks, best[list].size()); ++rank) {
-      const RankedGrip& ranked = best[list][rank];
+      const BestGrip& ranked = best[list][rank];
       grips[rank] = static_cast<std::int64_t>(ranked.candidate.index);
       reals[0][rank] = ranked.candidate.score;
       const auto values = axis_values(ranked.grip);

@@ -10,6 +10,7 @@
 
 #include "base/files/checksum.h"
 #include "core/planes.h"
+#include "sweeps/lists/best.h"
 #include "sweeps/result/mark.h"
 #include "sweeps/result/output_bytes.h"
 #include "sweeps/result/output_names.h"
@@ -80,8 +81,8 @@ class ResultFile {
   void sync();
   void start_sync();
 
-  // Writes the best grips (a list for each vessel and hand scale, in the order of GripLists, the best first; missing ranks are filled) and the times.
-  void write_ending(const std::vector<std::vector<RankedGrip>>& best, double wall_seconds, double kernel_seconds);
+  // Writes the places and scores of the best grips (missing ranks are filled), and the times.
+  void write_ending(const BestLists& best, double wall_seconds, double kernel_seconds);
 
   // From now on reads of a synced file come from the disk.
   void drop_cached();

@@ -601,11 +601,6 @@ double Sweep::gate(std::size_t v) const { return gate_tolerance(scene_, facts_[v
 
 void Sweep::publish(ResultFile& file, BestLists best) {
   if (has_usual_order()) describe_best(companions(), best);
-  std::vector<std::vector<RankedGrip>> ranked(best.size());
-  for (std::size_t list = 0; list < best.size(); ++list) {
-    for (const BestGrip& grip : best[list])
-      ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust});
-  }
   file.check_own();
   const auto write_others = [&] { return write_companions(companions(), best, has_heat_map() ? &maps_ : nullptr, info_); };
   // Renames the result last: once it exists, everything does. Lists in another order are made from the finished result.
@@ -613,7 +608,7 @@ void Sweep::publish(ResultFile& file, BestLists best) {
   if (has_usual_order()) files = write_others();
   // Syncs the values first, so that little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
   if (is_marked_) save(file);
-  file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
+  file.write_ending(best, wall_before_ + since(options_.started), mark_.kernel_seconds);
   const bool is_parted = has_shards();
   if (is_parted) mark_.shards->is_ended = true;
   if (is_marked_ || is_parted) save(file);  // which now vouches for the ending, too

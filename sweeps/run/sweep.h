@@ -30,8 +30,6 @@
 
 namespace wholehand {
 
-using BestLists = std::vector<std::vector<BestGrip>>;  // of each vessel and hand scale (GripLists)
-
 class Sweep {
  public:
   // All three must outlive the object.

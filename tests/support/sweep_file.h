@@ -42,7 +42,7 @@ struct SweepFile {
 
   void write_all(ResultFile& file) {
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) write(file, v, 0, plan.grips());
-    file.write_ending(std::vector<std::vector<RankedGrip>>(scene.vessels.size()), 1, 1);
+    file.write_ending(BestLists(scene.vessels.size()), 1, 1);
   }
 
   Scene scene;

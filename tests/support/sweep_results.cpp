@@ -68,7 +68,7 @@ void write_result(const Scene& scene, const std::string& path, Precision precisi
   const ResultContents contents{scene, plan, variables, vessel_facts(scene, backend, *core), backend.info(), "1.2.3", best_wanted};
   const OutputNames names = output_names(path);
   ResultFile file(names, contents, backend.fields(), FileStart::reserved);
-  std::vector<std::vector<RankedGrip>> best;
+  BestLists best;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     HandLists lists(plan, best_wanted, {});
     RunRequest request;
@@ -82,7 +82,7 @@ void write_result(const Scene& scene, const std::string& path, Precision precisi
     lists.offer(backend.run(request).best);
     for (std::size_t s = 0; s < plan.hand_scales(); ++s) {
       best.emplace_back();
-      for (const Candidate& candidate : lists.sorted(s)) best.back().push_back({candidate, plan.grip(v, candidate.index)});
+      for (const Candidate& candidate : lists.sorted(s)) best.back().push_back(bare_grip(plan, v, candidate));
     }
   }
   if (has_ending) file.write_ending(best, 12.5, 3.25);

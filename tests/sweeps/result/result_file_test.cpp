@@ -88,7 +88,7 @@ TEST(ResultFile, TwoMayWriteIntoOne) {
         EXPECT_GT(read.size(), 10u);
       }
     }
-    first.write_ending(std::vector<std::vector<RankedGrip>>(setup.scene.vessels.size()), 1, 1);
+    first.write_ending(BestLists(setup.scene.vessels.size()), 1, 1);
     first.finish();
     expect_expected(setup, folder / "a.nc");
   }
@@ -197,7 +197,7 @@ TEST(ResultFile, AnothersFileUnderItsNameIsLeftAlone) {
         if (is_end) {
           file.finish();
         } else {
-          file.write_ending(std::vector<std::vector<RankedGrip>>(setup.scene.vessels.size()), 1, 1);
+          file.write_ending(BestLists(setup.scene.vessels.size()), 1, 1);
         }
         ADD_FAILURE() << "it was not looked at";
       } catch (const Error& error) {
