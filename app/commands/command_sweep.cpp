@@ -44,12 +44,12 @@ ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
   if (!arguments.time_limit.empty()) options.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   if (!arguments.mark_seconds.empty())
-    options.mark_seconds = parse_quantity(arguments.mark_seconds, "--mark-seconds", {0.01, 86'400});
+    options.tuning.mark_seconds = parse_quantity(arguments.mark_seconds, "--mark-seconds", {0.01, 86'400});
   options.resume = arguments.resume;
   options.explain = arguments.explain;
   options.refine = !arguments.no_refine;
   if (arguments.shards || !arguments.shard.empty()) options.shards = arguments.shard;
-  options.warn = print_float_warnings;
+  options.hooks.warn = print_float_warnings;
   prepare_vulkan_environment(options.on);
   return run([&arguments] { return read_scene_file(find_scene(arguments.scene)); }, options);
 }

@@ -27,16 +27,15 @@ struct SweepSpec {
 };
 
 SweepOptions options_of(const SweepSpec& spec, std::vector<std::string>& notes) {
-  SweepOptions options;
-  options.output = spec.output;
-  options.on = spec.on;
+  SweepOptions options{.output = spec.output,
+                       .on = spec.on,
+                       .resume = spec.resume,
+                       .refine = spec.refine,
+                       .hooks = {.note = [&notes](const std::string& line) { notes.push_back(line); }}};
   if (spec.precision) options.precision = parse_precision(*spec.precision);
   if (spec.best) options.best = static_cast<int>(parse_integer(std::to_string(*spec.best), "--best", ranges::BEST));
   options.threads = checked_threads(spec.threads);
-  options.refine = spec.refine;
-  options.resume = spec.resume;
-  options.note = [&notes](const std::string& line) { notes.push_back(line); };
-  options.warn = [&notes](const Scene& scene, Precision precision) {
+  options.hooks.warn = [&notes](const Scene& scene, Precision precision) {
     for (const std::string& line : domain_warnings(scene, precision))
       notes.push_back(line + remedy_words(Remedy::double_precision));
   };

@@ -9,10 +9,7 @@
 
 int main() {
   using namespace wholehand;
-  SweepOptions options;
-  options.on = "core";
-  options.output = "swept.nc";
-  const ExitCode code = run_sweep(read_scene_file(find_scene("small")), options);
+  const ExitCode code = run_sweep(read_scene_file(find_scene("small")), {.output = "swept.nc", .on = "core"});
   std::printf("swept.nc has %llu bytes\n", static_cast<unsigned long long>(std::filesystem::file_size("swept.nc")));
   return code == ExitCode::done ? 0 : 1;
 }

@@ -706,7 +706,7 @@ class ClusterSweep final : public Sweep {
   // done.
   void take_pieces(const WorkRange& work, InterruptGuard& interrupt,
                    const std::function<std::uint64_t(const GripRange&)>& compute) {
-    PieceSize size(team_.size(), work.size(), options_.piece_seconds);
+    PieceSize size(team_.size(), work.size(), options_.tuning.piece_seconds);
     const double began = monotonic_now();
     std::uint64_t asked = size.next(work.size(), 0);
     team_.ask(asked);
@@ -732,7 +732,7 @@ class ClusterSweep final : public Sweep {
   }
 
   bool is_report_due() const {
-    return since(last_report_) >= std::max(options_.mark_seconds, REPORT_SHARE * since(options_.started));
+    return since(last_report_) >= std::max(options_.tuning.mark_seconds, REPORT_SHARE * since(options_.started));
   }
 
   // False: interrupted; the mark has what is done.
@@ -851,7 +851,7 @@ class ClusterSweep final : public Sweep {
   void cache_scores(std::size_t vessel, const std::vector<Candidate>& eligible) {
     if (!has_eligible_) return;
     eligible_count_ += eligible.size();
-    has_eligible_ = eligible_count_ * sizeof(Candidate) <= options_.cached_scores * sizeof(double);
+    has_eligible_ = eligible_count_ * sizeof(Candidate) <= options_.tuning.cached_scores * sizeof(double);
     if (has_eligible_) {
       eligible_[vessel].insert(eligible_[vessel].end(), eligible.begin(), eligible.end());
     } else {

@@ -23,6 +23,12 @@ OutputNames output_names(const std::string& result) {
   return names;
 }
 
+std::string default_output(const Scene& scene) {
+  std::string stem = scene.file.substr(scene.file.rfind('/') + 1);
+  if (stem.ends_with(".toml")) stem.resize(stem.size() - 5);
+  return (stem.empty() ? "sweep" : stem) + ".nc";
+}
+
 void check_not_the_scene(const std::string& path, const Scene& scene, const char* option) {
   const auto refuse = [&](const std::string& source, const std::string& what) {
     if (is_same_file(path, source))

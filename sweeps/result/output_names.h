@@ -27,6 +27,9 @@ struct OutputNames {
 
 OutputNames output_names(const std::string& result);
 
+// NAME.nc for a scene file if the user names none.
+std::string default_output(const Scene& scene);
+
 // Throws Error (usage) if `path` is the scene file itself or one of its meshes, under any name.
 void check_not_the_scene(const std::string& path, const Scene& scene, const char* option = "-o");
 

@@ -145,7 +145,7 @@ void AutoBackend::switch_to_core() {
 
 void AutoBackend::note_fallback(const std::string& why) const {
   const std::string line = "on core, since the device does not work: " + why;
-  options_.note ? options_.note(line) : print_note(line);
+  options_.hooks.note ? options_.hooks.note(line) : print_note(line);
 }
 
 }  // namespace wholehand

@@ -14,7 +14,7 @@ namespace wholehand {
 namespace {
 
 void read_meshes(Scene& scene, const SweepOptions& options, const std::function<std::uint64_t()>& device_bytes) {
-  if (!options.note) return load_meshes(scene, device_bytes);
+  if (!options.hooks.note) return load_meshes(scene, device_bytes);
   if (!has_meshes(scene)) return;  // findings on them are not notes: the other program asks for them where it wants
   MeshOptions mesh_options;
   mesh_options.is_quiet = true;
@@ -31,7 +31,7 @@ ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   const auto open = [&](const FieldSet& fields) {
     const Precision usual = own.on == "core" ? Precision::full : Precision::single;
     return open_backend(scene, fields, own.on, own.precision.value_or(usual), own.threads,
-                        own.note ? host::CompileWatch() : show_compiling());
+                        own.hooks.note ? host::CompileWatch() : show_compiling());
   };
   // by itself, so that a note comes before meshes that take long
   const auto device_bytes = [&] { return chosen.with_core_fallback([&] { return largest_buffer(own.on); }); };

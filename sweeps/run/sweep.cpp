@@ -54,7 +54,7 @@ Sweep::Sweep(const Scene& scene, const SweepOptions& options, const SweepParts& 
       best_wanted_(static_cast<std::size_t>(std::max(0, options.best.value_or(scene.output.best)))),
       by_(read_rank_by(options.rank_by, scene)),
       variables_(choose_variables(scene)),
-      mark_interval_(options.mark_seconds) {}
+      mark_interval_(options.tuning.mark_seconds) {}
 
 // Refuses what it can before any work, meshes unread.
 void Sweep::check() const {
@@ -141,7 +141,7 @@ void Sweep::open() {
 }
 
 void Sweep::print_header() const {
-  if (options_.warn) options_.warn(scene_, precision());
+  if (options_.hooks.warn) options_.hooks.warn(scene_, precision());
   for (const std::string& line : cavity_notes(scene_)) note(line);
   for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) note(line);
   print_text(opening_lines(scene_, plan(), info_) + vessel_lines(scene_, facts_) + unjudged_note(scene_, plan()));
@@ -149,7 +149,7 @@ void Sweep::print_header() const {
   print_text(explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
 }
 
-void Sweep::note(const std::string& line) const { is_quiet() ? options_.note(line) : print_note(line); }
+void Sweep::note(const std::string& line) const { is_quiet() ? options_.hooks.note(line) : print_note(line); }
 
 void Sweep::print_text(const std::string& text) const {
   if (is_quiet()) return;
@@ -161,7 +161,8 @@ ResultContents Sweep::contents() const { return {scene_, plan(), variables_, fac
 bool Sweep::needs_distinct_grips() const { return best_wanted_ > 0 && scene_.output.apart > 0; }
 bool Sweep::refines() const { return best_wanted_ > 0 && options_.refine; }
 std::size_t Sweep::pool() const {
-  return options_.pool > 0 && needs_distinct_grips() ? options_.pool : usual_pool(plan(), candidates(), scene_.output.apart);
+  return options_.tuning.pool > 0 && needs_distinct_grips() ? options_.tuning.pool
+                                                            : usual_pool(plan(), candidates(), scene_.output.apart);
 }
 std::size_t Sweep::candidates() const { return robust_candidates(scene_, best_wanted_); }
 std::size_t Sweep::kept_best() const { return needs_distinct_grips() ? pool() : candidates(); }
@@ -435,7 +436,7 @@ void Sweep::choose_from_pass(ListChooser& chooser, VesselProgress& vessel, const
 
 // Room for the scores of the next vessel, if there are not too many.
 void Sweep::reset_score_cache() {
-  const bool has_room = needs_distinct_grips() && plan().grips() <= options_.cached_scores;
+  const bool has_room = needs_distinct_grips() && plan().grips() <= options_.tuning.cached_scores;
   score_cache_.assign(has_room ? static_cast<std::size_t>(plan().grips()) : 0, std::numeric_limits<double>::quiet_NaN());
   cached_count_ = 0;
 }
@@ -498,7 +499,7 @@ void Sweep::save(ResultFile& file) {
   save_mark(names_.mark, mark_);
   is_marked_ = true;
   last_mark_ = monotonic_now();
-  mark_interval_ = std::max(options_.mark_seconds, since(start) / MARK_SHARE);
+  mark_interval_ = std::max(options_.tuning.mark_seconds, since(start) / MARK_SHARE);
 }
 
 ExitCode Sweep::interrupted() const {

@@ -51,10 +51,10 @@ class Sweep {
   // the precision, checks the disk space again.
   void open();
   void print_header() const;
-  // A note goes to options.note if that is set, and print_text then prints nothing; otherwise to standard error.
+  // A note goes to options.hooks.note if that is set, and print_text then prints nothing; otherwise to standard error.
   void note(const std::string& line) const;
   void print_text(const std::string& text) const;
-  bool is_quiet() const { return static_cast<bool>(options_.note); }
+  bool is_quiet() const { return static_cast<bool>(options_.hooks.note); }
   // Sets the progress: from the mark of an earlier sweep to resume, if there is one, else nothing done. True: resumed.
   bool begin();
   // Recomputes a stretch that the file no longer holds as it was written. False: interrupted. Throws Error (failure) if the result differs.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,38 +14,46 @@
 
 namespace wholehand {
 
-struct SweepOptions {
-  std::string output;                  // NAME.nc; empty: the scene file's name with .nc, in the working directory
-  std::string on = "vulkan";           // see open_backend; ON_AUTO (sweeps/run/auto_backend.h) for run_sweep of a scene
-  std::optional<Precision> precision;  // absent: double on the core, float elsewhere
-  std::optional<int> best;             // absent: the scene's
-  int glb = 0;                         // this many of the best of each vessel are written as glTF
-  bool resume = false;
-  bool explain = false;
-  ListView list = {};  // how each list is printed; `by` is not read
-  std::string rank_by =
-      {};              // the criterion of the lists, as from read_rank_by; the result's best grips always have the usual order
-  bool refine = true;  // the best grips, see sweeps/lists/refine.h
-  int threads = 0;     // of the core, 0: all
+// How a test, or another program that the sweep is part of, takes part.
+struct SweepHooks {
   // Called once meshes are read: tells the user about the scene in that precision. May be empty.
   std::function<void(const Scene&, Precision)> warn = {};
   // Takes the notes of the work, a line each. If it is set, the sweep is part of another program: it prints nothing and shows no progress. Empty:
   // notes go to standard error.
   std::function<void(const std::string&)> note = {};
-  // The time of the backend that was not chosen; completes the sentence of backend_line. Empty unless `on` was ON_AUTO.
-  std::string alternative = {};
+};
+
+// Numbers that change the sweep's work, but none of its values.
+struct SweepTuning {
   std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/lists/list_chooser.h); 0: usual_pool
   // Scores of one vessel's grips that are kept for further passes, 8 B each; with more grips each pass evaluates all of them again.
   std::size_t cached_scores = std::size_t{1} << 22;
-  double time_limit = 0;    // s after `started` at which the sweep ends as if interrupted; 0: none
-  double mark_seconds = 5;  // least time between two progress marks: the most that a crash may cost
-  // For machines without a shared file system: those with the same name write into one file; empty: those of a node. Absent: all into one.
-  std::optional<std::string> shards = {};
-  double piece_seconds = 2;          // least number of grips that a rank of a cluster takes at a time
-  double started = monotonic_now();  // s of the clock: when the work was requested, for the closing lines
+  double mark_seconds = 5;   // least time between two progress marks: the most that a crash may cost
+  double piece_seconds = 2;  // least number of grips that a rank of a cluster takes at a time
 };
 
-// NAME.nc for a scene file if the user names none.
-std::string default_output(const Scene& scene);
+// What the user asks for.
+struct SweepOptions {
+  std::string output = {};                  // NAME.nc; empty: the scene file's name with .nc, in the working directory
+  std::string on = "vulkan";                // see open_backend; ON_AUTO (sweeps/run/auto_backend.h) for run_sweep of a scene
+  std::optional<Precision> precision = {};  // absent: double on the core, float elsewhere
+  std::optional<int> best = {};             // absent: the scene's
+  int glb = 0;                              // this many of the best of each vessel are written as glTF
+  bool resume = false;
+  bool explain = false;
+  ListView list = {};  // how each list is printed; `by` is not read
+  std::string rank_by =
+      {};                 // the criterion of the lists, as from read_rank_by; the result's best grips always have the usual order
+  bool refine = true;     // the best grips, see sweeps/lists/refine.h
+  int threads = 0;        // of the core, 0: all
+  double time_limit = 0;  // s after `started` at which the sweep ends as if interrupted; 0: none
+  double started = monotonic_now();  // s of the clock: when the work was requested, for the closing lines too
+  // For machines without a shared file system: those with the same name write into one file; empty: those of a node. Absent: all into one.
+  std::optional<std::string> shards = {};
+  // The time of the backend that was not chosen; completes the sentence of backend_line. Empty unless `on` was ON_AUTO.
+  std::string alternative = {};
+  SweepHooks hooks = {};
+  SweepTuning tuning = {};
+};
 
 }  // namespace wholehand

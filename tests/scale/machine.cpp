@@ -68,14 +68,12 @@ void run_rank(const Scene& scene, const std::string& folder, InterruptGuard& int
   char** argv = nullptr;
   Team team(argc, argv);
   const Job& job = simulation().job;
-  SweepOptions options;
-  options.output = folder + "/simulated.nc";
-  options.on = "core";
-  options.refine = false;
-  options.threads = 1;
-  options.mark_seconds = job.machine.mark_seconds;
-  options.piece_seconds = job.machine.piece_seconds;
-  options.started = 0;
+  const SweepOptions options{.output = folder + "/simulated.nc",
+                             .on = "core",
+                             .refine = false,
+                             .threads = 1,
+                             .started = 0,
+                             .tuning = {.mark_seconds = job.machine.mark_seconds, .piece_seconds = job.machine.piece_seconds}};
   if (run_cluster_sweep(team, scene, options, simulated_parts(scene), interrupt) != ExitCode::done)
     throw std::runtime_error("the sweep did not end as it should");
   if (team.is_leader()) {

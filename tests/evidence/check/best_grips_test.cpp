@@ -26,8 +26,7 @@ TEST(BestGrips, OfTheDefaultSceneAreThoseOfABody) {
   ASSERT_TRUE(scene.table);
   ASSERT_GT(scene.hand.between, 0);
   TemporaryFolder folder;
-  SweepOptions options;
-  options.output = folder / "best.nc";
+  const SweepOptions options{.output = folder / "best.nc"};
   testing::internal::CaptureStdout();
   ASSERT_EQ(run_sweep(scene, options), ExitCode::done);
   testing::internal::GetCapturedStdout();

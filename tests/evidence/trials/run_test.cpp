@@ -142,11 +142,7 @@ TEST_F(TrialsTest, GripsOfAResultAreThoseOfItsScene) {
     options.folder = folder / (name + "_of_scene");
     ASSERT_EQ(run().code, ExitCode::done);
     const std::string of_scene = csv();
-    SweepOptions sweep;
-    sweep.output = folder / (name + ".nc");
-    sweep.on = "core";
-    sweep.best = 2;
-    sweep.refine = false;
+    const SweepOptions sweep{.output = folder / (name + ".nc"), .on = "core", .best = 2, .refine = false};
     testing::internal::CaptureStdout();
     EXPECT_EQ(run_sweep(scene, sweep), ExitCode::done);
     testing::internal::GetCapturedStdout();

@@ -60,9 +60,7 @@ TEST(Team, EveryExceptionOfARankIsAnErrorOfAll) {
   scene.file = "empty.toml";
   scene.vessels.resize(1);
   scene.vessels[0].name = "cup";
-  SweepOptions options;
-  options.output = folder + "/a.nc";
-  options.on = "core";
+  const SweepOptions options{.output = folder + "/a.nc", .on = "core"};
   SweepParts parts;
   parts.prepare = [] { throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again)); };
   InterruptGuard interrupt(SIGUSR1);
@@ -110,10 +108,7 @@ roll_deg = { from = -90, to = 30, count = 5 }
 )",
                                   "cup.toml");
   const auto swept = [&](const std::string& name, int lost) {
-    SweepOptions options;
-    options.output = folder + "/" + name;
-    options.on = "core";
-    options.threads = 1;
+    const SweepOptions options{.output = folder + "/" + name, .on = "core", .threads = 1};
     SweepParts parts;
     parts.open_backend = [&](const FieldSet& fields) { return open_backend(scene, fields, "core", Precision::full, 1); };
     parts.open_evaluator = [&] { return make_core_evaluator(scene); };

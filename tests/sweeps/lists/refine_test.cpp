@@ -216,11 +216,7 @@ TEST(Refine, ASweepSaysBothScoresAndTheResultGivesTheGripsBack) {
   const auto core = make_core_evaluator(scene);
   std::vector<double> grips;
   for (const bool refine : {true, false}) {
-    SweepOptions options;
-    options.output = folder / "a.nc";
-    options.on = "core";
-    options.refine = refine;
-    options.list.is_wide = true;
+    const SweepOptions options{.output = folder / "a.nc", .on = "core", .list = {.is_wide = true}, .refine = refine};
     testing::internal::CaptureStdout();
     EXPECT_EQ(run_sweep(scene, options), ExitCode::done);
     const std::string out = testing::internal::GetCapturedStdout();

@@ -425,11 +425,8 @@ TEST(RobustSweep, IsTheSameOnADeviceOnTheCoreAndInRank) {
   scene.output.also = {"push"};
   std::vector<std::vector<std::uint64_t>> lists;
   for (const char* on : {"core", "vulkan"}) {
-    SweepOptions options;
-    options.output = folder / (std::string(on) + ".nc");
-    options.on = on;
-    options.best = 5;
-    options.note = [](const std::string&) {};
+    const SweepOptions options{
+        .output = folder / (std::string(on) + ".nc"), .on = on, .best = 5, .hooks = {.note = [](const std::string&) {}}};
     Scene swept = scene;
     swept.grips.height.values = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
     swept.grips.height.is_range = false;
@@ -486,12 +483,8 @@ TEST(RobustSweep, ShardsHaveNoListsToRank) {
   const TemporaryFolder folder;
   Scene scene = scene_of({beaker1()});
   scene.robust = RobustData();
-  SweepOptions options;
-  options.output = folder / "a.nc";
-  options.shards = "";
-  options.rank_by = "score";
   try {
-    run_sweep(scene, options);
+    run_sweep(scene, {.output = folder / "a.nc", .rank_by = "score", .shards = ""});
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::usage);

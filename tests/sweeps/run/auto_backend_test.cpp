@@ -122,7 +122,7 @@ class AutoBackendTest : public testing::Test {
     options_.output = folder_ / "out.nc";
     options_.on = ON_AUTO;
     options_.refine = false;
-    options_.note = [this](const std::string& line) { notes_ += line + "\n"; };
+    options_.hooks.note = [this](const std::string& line) { notes_ += line + "\n"; };
   }
 
   // Enough grips that any device pays off.

@@ -92,10 +92,7 @@ Swept sweep_on(const std::string& on, const Scene& scene) {
   };
   parts.open_evaluator = [&] { return make_core_evaluator(scene); };
   parts.open_core = open_core_for;
-  SweepOptions options;
-  options.output = folder / "swept.nc";
-  options.refine = false;
-  options.note = [](const std::string&) {};
+  const SweepOptions options{.output = folder / "swept.nc", .refine = false, .hooks = {.note = [](const std::string&) {}}};
   EXPECT_EQ(run_sweep(scene, options, parts), ExitCode::done);
   swept.lists = file_text(folder / "swept.best.csv");
   return swept;

@@ -107,8 +107,8 @@ TEST(RunOnADevice, DifferentBestGripsAreThoseOfTheDefinitionAfterABreakToo) {
   ASSERT_EQ(sweep_on_device(scene, options, false), ExitCode::done);
   options.output = folder / "parts.nc";
   // passes over the grips instead of one over the best of them
-  options.pool = 3;
-  options.cached_scores = 0;
+  options.tuning.pool = 3;
+  options.tuning.cached_scores = 0;
   ASSERT_EQ(sweep_on_device(scene, options, true), ExitCode::interrupted);
   ASSERT_FALSE(file_exists(options.output));
   options.resume = true;

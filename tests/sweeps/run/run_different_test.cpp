@@ -80,14 +80,14 @@ TEST_F(RunTest, DifferentBestGripsAreThoseOfTheDefinition) {
               trial.scene.output.keep = {{"gap"}};
             } else {
               trial.scene.output.keep = std::vector<std::string>{};
-              trial.options.cached_scores = 0;
+              trial.options.tuning.cached_scores = 0;
             }
             if (several_hands) trial.scene.grips.hand_scale.values = {1.1, 0.9};
             if (is_sobol) {
               trial.scene.grips.sampling = Sampling::sobol;
               trial.scene.grips.count = 300;
             }
-            trial.options.pool = pool;
+            trial.options.tuning.pool = pool;
             const SweepOutcome outcome = trial.run();
             ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
             expect_listed(folder / "a.nc", trial.scene);
@@ -109,7 +109,7 @@ TEST_F(RunTest, InSinglePrecisionTheListIsTheSame) {
   trial.scene = choosy_scene();
   trial.precision = Precision::single;
   trial.options.precision = Precision::single;
-  trial.options.pool = 5;
+  trial.options.tuning.pool = 5;
   ASSERT_EQ(trial.run().code, ExitCode::done);
   expect_listed(folder / "a.nc", trial.scene);  // the stand-ins' scores are the same in both
 }
@@ -132,8 +132,8 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
   {
     SweepTrial whole(folder / "b.nc");
     whole.scene = quick_choosy_scene();
-    whole.options.pool = 1;
-    whole.options.cached_scores = 0;
+    whole.options.tuning.pool = 1;
+    whole.options.tuning.cached_scores = 0;
     whole.before_run = [&] { ++runs; };
     ASSERT_EQ(whole.run().code, ExitCode::done);
     expect_same_list(expected, folder / "b.nc");
@@ -143,8 +143,8 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
     for (const bool at_once : {true, false}) {
       SweepTrial trial(folder / "a.nc");
       trial.scene = quick_choosy_scene();
-      trial.options.pool = 1;
-      trial.options.cached_scores = 0;
+      trial.options.tuning.pool = 1;
+      trial.options.tuning.cached_scores = 0;
       int run = 0, chunk = 0;
       trial.before_run = [&] {
         if (++run == stop && at_once) raise(SIGINT);
@@ -157,8 +157,8 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
       ASSERT_EQ(outcome.code, ExitCode::interrupted) << stop << outcome.error;
       SweepTrial rest(folder / "a.nc");
       rest.scene = quick_choosy_scene();
-      rest.options.pool = 1;
-      rest.options.cached_scores = 0;
+      rest.options.tuning.pool = 1;
+      rest.options.tuning.cached_scores = 0;
       rest.options.resume = true;
       int runs_of_rest = 0;
       rest.before_run = [&] { ++runs_of_rest; };
@@ -178,8 +178,8 @@ TEST_F(RunTest, FurtherPassesTakeTheScoresOfTheFirst) {
   for (const std::uint64_t room : {grips, grips - 1}) {
     SweepTrial trial(folder / "a.nc");
     trial.scene = quick_choosy_scene();
-    trial.options.pool = 1;
-    trial.options.cached_scores = static_cast<std::size_t>(room);
+    trial.options.tuning.pool = 1;
+    trial.options.tuning.cached_scores = static_cast<std::size_t>(room);
     int runs = 0;
     trial.before_run = [&] { ++runs; };
     ASSERT_EQ(trial.run().code, ExitCode::done);
@@ -198,7 +198,7 @@ TEST_F(RunTest, AResumedSweepGathersTheScoresAnew) {
   for (const int stop : {2, 4}) {
     SweepTrial trial(folder / "a.nc");
     trial.scene = quick_choosy_scene();
-    trial.options.pool = 1;
+    trial.options.tuning.pool = 1;
     int chunks = 0;
     trial.before_chunk = [&] {
       if (++chunks == stop) raise(SIGINT);
@@ -206,7 +206,7 @@ TEST_F(RunTest, AResumedSweepGathersTheScoresAnew) {
     ASSERT_EQ(trial.run().code, ExitCode::interrupted);
     SweepTrial rest(folder / "a.nc");
     rest.scene = quick_choosy_scene();
-    rest.options.pool = 1;
+    rest.options.tuning.pool = 1;
     rest.options.resume = true;
     int runs = 0;
     rest.before_run = [&] { ++runs; };
@@ -221,8 +221,8 @@ TEST_F(RunTest, MarksBetweenPassesChangeNothing) {
   const std::string expected = reference(choosy_scene());
   SweepTrial trial(folder / "a.nc");
   trial.scene = choosy_scene();
-  trial.options.pool = 1;
-  trial.options.mark_seconds = 0;
+  trial.options.tuning.pool = 1;
+  trial.options.tuning.mark_seconds = 0;
   ASSERT_EQ(trial.run().code, ExitCode::done);
   expect_same_as(expected, folder / "a.nc");
 }

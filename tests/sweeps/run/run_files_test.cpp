@@ -77,7 +77,7 @@ TEST_F(RunTest, WhoWritesAResultIsNamedAndUndisturbed) {
 TEST_F(RunTest, WhoFindsAnothersFileEndsAndLeavesItAlone) {
   const std::string expected = reference(), path = folder / "a.nc";
   SweepTrial first(path);
-  first.options.mark_seconds = 0;
+  first.options.tuning.mark_seconds = 0;
   std::string mark, partial;
   int chunks = 0;
   first.before_chunk = [&] {

@@ -33,7 +33,7 @@ TEST_F(RunTest, KilledAndResumedIsTheSameBitForBit) {
       ASSERT_EQ(pipe2(chunks, O_CLOEXEC), 0);
       SweepTrial trial(folder / "a.nc");
       trial.options.resume = attempt > 0;
-      trial.options.mark_seconds = 0;
+      trial.options.tuning.mark_seconds = 0;
       trial.chunk = 20;
       trial.before_chunk = [&] { EXPECT_EQ(write(chunks[1], "x", 1), 1); };
       resumed += attempt > 0 && file_exists(folder / "a.nc.partial.mark");
@@ -221,7 +221,7 @@ TEST_F(RunTest, ADamagedPartialFileIsNeverTrusted) {
   const std::string expected = reference(quick_scene()), path = folder / "a.nc";
   SweepTrial begun(path);
   begun.scene = quick_scene();
-  begun.options.mark_seconds = 0;
+  begun.options.tuning.mark_seconds = 0;
   int chunks = 0;
   begun.before_chunk = [&] {
     if (++chunks == 9) raise(SIGINT);
@@ -259,7 +259,7 @@ TEST_F(RunTest, ADamagedPartialFileIsNeverTrusted) {
 // Leaves a sweep to `path` interrupted after eight chunks, with four bytes of its grips changed since.
 void leave_damaged_grips(const std::string& path) {
   SweepTrial begun(path);
-  begun.options.mark_seconds = 0;
+  begun.options.tuning.mark_seconds = 0;
   int chunks = 0;
   begun.before_chunk = [&] {
     if (++chunks == 9) raise(SIGINT);
@@ -329,7 +329,7 @@ TEST_F(RunTest, TheTimeLimitHoldsWhileDamagedGripsAreComputedAgain) {
 TEST_F(RunTest, AMarkThatContradictsItselfIsRefused) {
   const std::string path = folder / "a.nc";
   SweepTrial begun(path);
-  begun.options.mark_seconds = 0;
+  begun.options.tuning.mark_seconds = 0;
   int chunks = 0;
   begun.before_chunk = [&] {
     if (++chunks == 8) raise(SIGINT);

@@ -80,7 +80,7 @@ TEST_F(RunTest, EachHandScaleHasAListOfItsOwn) {
   for (const bool is_sobol : {false, true}) {
     for (const bool keeps : {true, false}) {
       SweepTrial trial(folder / "a.nc");
-      trial.options.mark_seconds = 0;  // the lists go through marks too
+      trial.options.tuning.mark_seconds = 0;  // the lists go through marks too
       trial.scene.grips.hand_scale.values = {1.1, 0.9, 1};
       if (is_sobol) {
         trial.scene.grips.sampling = Sampling::sobol;
@@ -155,12 +155,12 @@ TEST_F(RunTest, EverythingCanBeLeftOutButTheBest) {
 TEST_F(RunTest, MarksInBetweenChangeNothing) {
   const std::string expected = reference();
   SweepTrial trial(folder / "a.nc");
-  trial.options.mark_seconds = 0;
+  trial.options.tuning.mark_seconds = 0;
   trial.chunk = 9;
   ASSERT_EQ(trial.run().code, ExitCode::done);
   expect_same_as(expected, folder / "a.nc");
   SweepTrial none(folder / "b.nc");
-  none.options.mark_seconds = 0;
+  none.options.tuning.mark_seconds = 0;
   none.scene.output.keep = std::vector<std::string>{};
   ASSERT_EQ(none.run().code, ExitCode::done);
   EXPECT_EQ(list_beside(folder / "b.nc"), list_beside(folder / "reference.nc"));
@@ -211,8 +211,7 @@ TEST_F(RunTest, BackendThatDeliversNothingIsAFailure) {
     RunResult run(const RunRequest&) override { return {}; }
   };
   const Scene scene = fake_scene();
-  SweepOptions options;
-  options.output = folder / "a.nc";
+  const SweepOptions options{.output = folder / "a.nc"};
   const SweepParts parts{[&](const FieldSet& fields) { return std::make_unique<Silent>(scene, fields, Precision::full, 10); },
                          [&] { return std::make_unique<FakeEvaluator>(scene); }};
   testing::internal::CaptureStdout();
@@ -223,8 +222,7 @@ TEST_F(RunTest, BackendThatDeliversNothingIsAFailure) {
 TEST_F(RunTest, CoreOnThreadsGivesTheSameFile) {
   const std::string expected = reference();
   const Scene scene = fake_scene();
-  SweepOptions options;
-  options.output = folder / "a.nc";
+  const SweepOptions options{.output = folder / "a.nc"};
   const auto open = [&](const FieldSet& fields) {
     return std::make_unique<CoreBackend>(std::make_unique<FakeEvaluator>(scene), scene, fields, Precision::full, 3);
   };
@@ -242,10 +240,8 @@ TEST_F(RunTest, CoreOnThreadsGivesTheSameFile) {
 TEST_F(RunTest, WhereNotesAreAskedForNothingIsPrinted) {
   const std::string expected = reference();
   Scene scene = fake_scene();
-  SweepOptions options;
-  options.output = folder / "a.nc";
   std::vector<std::string> notes;
-  options.note = [&](const std::string& line) { notes.push_back(line); };
+  const SweepOptions options{.output = folder / "a.nc", .hooks = {.note = [&](const std::string& line) { notes.push_back(line); }}};
   scene.robust.emplace().azimuth = 0.1;  // about bodies of revolution it changes nothing, which is a note
   scene.output.best = 0;
   const auto open = [&](const FieldSet& fields) { return std::make_unique<FakeBackend>(scene, fields, Precision::full, 10); };
