@@ -177,8 +177,10 @@ ExitCode or_abort(Team& team, const std::function<ExitCode()>& work) {
   }
 }
 
-// Distributes several devices of the best kind on a node among its ranks.
-std::string own_device(const Team& team, const std::string& on) {
+// Distributes several devices of the best kind on a node among its ranks. ON_AUTO is "vulkan" here: all ranks alike, whatever devices the nodes have.
+std::string own_device(const Team& team, const std::string& asked) {
+  if (asked == "core") return asked;
+  const std::string on = asked == ON_AUTO ? "vulkan" : asked;
   const std::vector<host::DeviceInfo> devices = host::list_devices();
   const host::DeviceInfo& chosen = host::choose_device(devices, on);
   if (on != "vulkan") return on;
@@ -190,8 +192,9 @@ std::string own_device(const Team& team, const std::string& on) {
 
 class ClusterSweep final : public Sweep {
  public:
-  ClusterSweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts, InterruptGuard& interrupt)
-      : Sweep(scene, options, parts), team_(team), interrupt_(interrupt), figures_(static_cast<std::size_t>(team.size())) {}
+  ClusterSweep(Team& team, const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts,
+               InterruptGuard& interrupt)
+      : Sweep(scene, options, choice, parts), team_(team), interrupt_(interrupt), figures_(static_cast<std::size_t>(team.size())) {}
 
   ExitCode run() override {
     InterruptGuard& interrupt = interrupt_;
@@ -1208,7 +1211,8 @@ ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& o
                            InterruptGuard& interrupt) {
   return or_abort(team, [&] {
     std::optional<ClusterSweep> sweep;
-    agree(team, caught([&] { sweep.emplace(team, scene, options, parts, interrupt); }));
+    agree(team,
+          caught([&] { sweep.emplace(team, scene, options, named_backend(options.on, options.precision), parts, interrupt); }));
     return sweep->run();
   });
 }
@@ -1217,20 +1221,23 @@ ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene,
                            InterruptGuard& interrupt) {
   Scene scene;
   SweepOptions own = options;
-  if (own.on == ON_AUTO) own.on = "vulkan";  // all ranks alike, whatever devices the nodes have
   or_abort(team, [&] {
     agree(team, caught([&] {
             scene = read_scene();
-            if (own.on != "core") own.on = own_device(team, own.on);
+            own.on = own_device(team, options.on);
           }));
     return ExitCode::done;
   });
   if (own.threads == 0) own.threads = team.own_processors();  // on a device, of what the core does besides
-  const Precision precise = own.precision.value_or(own.on == "core" ? Precision::full : Precision::single);
   const SweepParts parts{
-      [&](const FieldSet& fields) { return open_backend(scene, fields, own.on, precise, own.threads); },
+      [&](const BackendChoice& choice, const FieldSet& fields) {
+        return open_backend(scene, fields, choice.on, choice.precision, own.threads);
+      },
       [&] { return make_core_evaluator(scene); },
-      [&] { load_meshes(scene, [&] { return largest_buffer(own.on); }); },
+      [&](const BackendChoice& choice) {
+        load_meshes(scene, [&] { return largest_buffer(choice.on); });
+        return choice;
+      },
       [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, "core", Precision::full, own.threads); },
       Team::open_output,
   };

@@ -8,7 +8,7 @@
 #include <exception>
 
 #include "base/numbers/parallel.h"
-#include "base/system/output.h"
+#include "base/text/error.h"
 #include "base/text/readable.h"
 #include "core/planes.h"
 #include "shaders/layout.h"
@@ -25,23 +25,20 @@ bool is_there(const std::string& path) {
   return stat(path.c_str(), &status) == 0;
 }
 
-// Where the sweep of an unfinished or finished result ran, and its precision. False: there is no such result, or it does not say; resuming it reports
-// what is wrong.
-bool origin_of(const OutputNames& names, std::string& on, Precision& precision) try {
-  SweepMark mark;
+// Where the sweep of an unfinished or finished result ran. Nothing: there is no such result, or it does not say; resuming it reports what is wrong.
+std::optional<BackendChoice> origin_of(const OutputNames& names, const std::optional<Precision>& asked) try {
   if (is_there(names.partial)) {
-    if (!load_mark(names.mark, mark)) return false;
-    on = mark.identity.at("backend") == "core" ? "core" : mark.identity.at("device");
-    precision = mark.identity.at("precision") == "float" ? Precision::single : Precision::full;
-    return true;
+    SweepMark mark;
+    if (!load_mark(names.mark, mark)) return std::nullopt;
+    const std::string on = mark.identity.at("backend") == "core" ? "core" : mark.identity.at("device");
+    return named_backend(on, asked.value_or(mark.identity.at("precision") == "float" ? Precision::single : Precision::full));
   }
-  if (!is_there(names.result)) return false;
+  if (!is_there(names.result)) return std::nullopt;
   const SweepResult result(names.result);
-  on = result.origin().backend == "core" ? "core" : result.origin().device;
-  precision = result.origin().precision;
-  return true;
+  const SweepOrigin& origin = result.origin();
+  return named_backend(origin.backend == "core" ? "core" : origin.device, asked.value_or(origin.precision));
 } catch (const std::exception&) {
-  return false;
+  return std::nullopt;
 }
 
 // Fitted to sweeps of 27,648 to 195,840 grips (docs/results, "Core or device").
@@ -90,62 +87,68 @@ double cpu_driver_seconds(const Workload& work, int threads, Precision precision
   return seconds_of(cost, work, std::min(threads, DRIVER_THREADS));
 }
 
+BackendChoice named_backend(const std::string& on, const std::optional<Precision>& precision) {
+  return {on, precision.value_or(on == "core" ? Precision::full : Precision::single)};
+}
+
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
                              const std::vector<host::DeviceInfo>& devices) {
-  if (!pays_for_device(work, threads)) return {"core", "; so little work does not pay for a device (`--on vulkan`)"};
+  const Precision on_core = precision.value_or(Precision::full), on_device = precision.value_or(Precision::single);
+  if (!pays_for_device(work, threads)) return {"core", on_core, "; so little work does not pay for a device (`--on vulkan`)"};
   const host::DeviceInfo& device = host::choose_device(devices, "vulkan");
-  if (precision == Precision::full && !device.float64) return {"core", "; " + device.name + " has no double precision"};
-  const double on_core = core_seconds(work, thread_count(threads));
-  const char* core_precision = precision == Precision::single ? "float" : "double";
-  const std::string core = fmt::format("; the CPU core, {}, would take {} (`--on core`)", core_precision, about(on_core));
-  if (device.kind != host::DeviceKind::cpu) return {"vulkan", core};
-  if (!is_llvmpipe(device)) return {"core", fmt::format("; {} is a CPU driver that was never timed (`--on vulkan`)", device.name)};
-  const double on_driver = cpu_driver_seconds(work, thread_count(0), precision.value_or(Precision::single));
-  if (on_driver < on_core) return {"vulkan", core};
-  return {"core", fmt::format("; {}, a CPU driver, would take {} once its kernels are compiled (`--on vulkan`)", device.name,
-                              about(on_driver))};
+  if (on_device == Precision::full && !device.float64) return {"core", on_core, "; " + device.name + " has no double precision"};
+  const double core_time = core_seconds(work, thread_count(threads));
+  const char* core_precision = on_core == Precision::single ? "float" : "double";
+  const BackendChoice vulkan{"vulkan", on_device,
+                             fmt::format("; the CPU core, {}, would take {} (`--on core`)", core_precision, about(core_time)),
+                             on_core};
+  if (device.kind != host::DeviceKind::cpu) return vulkan;
+  if (!is_llvmpipe(device))
+    return {"core", on_core, fmt::format("; {} is a CPU driver that was never timed (`--on vulkan`)", device.name)};
+  const double driver_time = cpu_driver_seconds(work, thread_count(0), on_device);
+  if (driver_time < core_time) return vulkan;
+  return {"core", on_core,
+          fmt::format("; {}, a CPU driver, would take {} once its kernels are compiled (`--on vulkan`)", device.name,
+                      about(driver_time))};
 }
 
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision) try {
   const bool may_choose = pays_for_device(work, threads);
   return choose_backend(work, threads, precision, may_choose ? host::list_devices() : std::vector<host::DeviceInfo>{});
 } catch (const Error& error) {
-  return {"core", fmt::format("; {}", error.what())};
+  return {"core", precision.value_or(Precision::full), fmt::format("; {}", error.what())};
 }
 
-AutoBackend::AutoBackend(const Scene& scene, SweepOptions& options) : options_(options) {
-  if (options.on != ON_AUTO || (options.resume && resume(scene))) return;
-  options.on = "core";
+BackendChoice choose_backend(const Scene& scene, const SweepOptions& options) {
+  if (options.on != ON_AUTO) return named_backend(options.on, options.precision);
+  if (options.resume) {
+    const std::string output = options.output.empty() ? default_output(scene) : options.output;
+    if (const auto begun = origin_of(output_names(output), options.precision)) return *begun;
+  }
   try {
     const std::vector<const Variable*> variables = choose_variables(scene);
     const Plan plan(scene, keeps_vectors(variables));
     const Workload work = workload_of(scene, variables, plan.grips() * scene.vessels.size());
-    const BackendChoice choice = choose_backend(work, options.threads, options.precision);
-    options.on = choice.on;
-    options.alternative = choice.alternative;
-    may_change_ = choice.on != "core";
+    return choose_backend(work, options.threads, options.precision);
   } catch (const Error&) {
-    // the sweep refuses it in its own words
+    return named_backend("core", options.precision);  // the sweep refuses it in its own words
   }
 }
 
-bool AutoBackend::resume(const Scene& scene) {
-  Precision precision{};
-  const OutputNames names = output_names(options_.output.empty() ? default_output(scene) : options_.output);
-  if (!origin_of(names, options_.on, precision)) return false;
-  if (!options_.precision) options_.precision = precision;
-  return true;
-}
-
-void AutoBackend::switch_to_core() {
-  may_change_ = false;
-  options_.on = "core";
-  options_.alternative = "";
-}
-
-void AutoBackend::note_fallback(const std::string& why) const {
-  const std::string line = "on core, since the device does not work: " + why;
-  options_.hooks.note ? options_.hooks.note(line) : print_note(line);
+BackendChoice with_core_fallback(const BackendChoice& choice, const std::function<void(const std::string&)>& note,
+                                 const std::function<void(const BackendChoice&)>& work) {
+  std::string why;
+  try {
+    work(choice);
+    return choice;
+  } catch (const Error& error) {
+    if (!choice.fallback_precision) throw;
+    why = error.what();
+  }
+  const BackendChoice core{"core", *choice.fallback_precision};
+  work(core);
+  note("on core, since the device does not work: " + why);
+  return core;
 }
 
 }  // namespace wholehand

@@ -4,12 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "base/text/error.h"
 #include "core/backend.h"
 #include "host/device_info.h"
 #include "sweeps/plan/variables.h"
@@ -37,10 +36,16 @@ double cpu_driver_seconds(const Workload& work, int threads, Precision precision
 // Whether the core needs a second or more, about the time that opening a device takes.
 bool pays_for_device(const Workload& work, int threads);
 
+// Where a sweep computes. It is chosen once, before the sweep begins.
 struct BackendChoice {
-  std::string on = "core";  // or "vulkan"
-  std::string alternative;  // the other's time or what it lacks; completes the sentence of backend_line
+  std::string on = "core";  // see open_backend
+  Precision precision = Precision::full;
+  std::string alternative = {};                      // the other's time or what it lacks; completes the sentence of backend_line
+  std::optional<Precision> fallback_precision = {};  // of the core, in place of a device that fails; absent: the choice stands
 };
+
+// `on` as the user names it. An absent precision is double on the core, float elsewhere.
+BackendChoice named_backend(const std::string& on, const std::optional<Precision>& precision);
 
 // Chooses the core or the best of `devices`. `threads` is for the core; 0 means all. `precision` is absent if the user names none.
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision,
@@ -49,42 +54,13 @@ BackendChoice choose_backend(const Workload& work, int threads, const std::optio
 // Chooses among the devices of this machine, which are listed only if one may be chosen. Falls back to the core if there is none. Does not throw.
 BackendChoice choose_backend(const Workload& work, int threads, const std::optional<Precision>& precision);
 
-// Decides on construction, before meshes are read; `options.on` then names core or a device, and `options.alternative` gives the other's time. Does
-// nothing unless `options.on` is ON_AUTO. A resumed sweep keeps the backend and precision with which it began.
-class AutoBackend {
- public:
-  // `options` must outlive the object. The sweep itself later refuses invalid scenes.
-  AutoBackend(const Scene& scene, SweepOptions& options);
+// The choice for a sweep, meshes unread. With ON_AUTO, a resumed sweep keeps the backend and precision with which it began. The sweep itself later
+// refuses invalid scenes.
+BackendChoice choose_backend(const Scene& scene, const SweepOptions& options);
 
-  // Returns what `work` makes of options.on. If the program itself chose a device and that fails, options.on becomes the core, `work` runs again, and
-  // a note says so. If the core fails too, the device was not the cause, and only the core's error is reported.
-  template <class Work>
-  auto with_core_fallback(Work&& work) {
-    if (!may_change_) return work();
-    std::string why;
-    try {
-      return work();
-    } catch (const Error& error) {
-      why = error.what();
-    }
-    switch_to_core();
-    if constexpr (std::is_void_v<decltype(work())>) {
-      work();
-      note_fallback(why);
-    } else {
-      auto made = work();
-      note_fallback(why);
-      return made;
-    }
-  }
-
- private:
-  bool resume(const Scene& scene);
-  void switch_to_core();
-  void note_fallback(const std::string& why) const;
-
-  SweepOptions& options_;
-  bool may_change_ = false;
-};
+// Does `work` where the choice says, and returns the choice. If the program itself chose a device and that fails, does it on the core, and `note`
+// takes a line that says so. If the core fails too, the device was not the cause, and only the core's error is reported.
+BackendChoice with_core_fallback(const BackendChoice& choice, const std::function<void(const std::string&)>& note,
+                                 const std::function<void(const BackendChoice&)>& work);
 
 }  // namespace wholehand

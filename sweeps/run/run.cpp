@@ -2,8 +2,8 @@
 #include "sweeps/run/run.h"
 
 #include <cstdint>
-#include <functional>
 
+#include "base/system/output.h"
 #include "core/evaluator.h"
 #include "core/meshes/vessel.h"
 #include "host/open_backend.h"
@@ -13,12 +13,11 @@
 namespace wholehand {
 namespace {
 
-void read_meshes(Scene& scene, const SweepOptions& options, const std::function<std::uint64_t()>& device_bytes) {
-  if (!options.hooks.note) return load_meshes(scene, device_bytes);
-  if (!has_meshes(scene)) return;  // findings on them are not notes: the other program asks for them where it wants
-  MeshOptions mesh_options;
+void read_meshes(Scene& scene, const SweepOptions& options, std::uint64_t device_bytes) {
+  if (!options.hooks.note) return load_meshes(scene, [&] { return device_bytes; });
+  MeshOptions mesh_options;  // findings are not notes: the other program asks for them where it wants
   mesh_options.is_quiet = true;
-  mesh_options.most_bytes = largest_lattice(device_bytes());
+  mesh_options.most_bytes = largest_lattice(device_bytes);
   load_meshes(scene, mesh_options);
 }
 
@@ -26,26 +25,36 @@ void read_meshes(Scene& scene, const SweepOptions& options, const std::function<
 
 ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   Scene scene = given;
-  SweepOptions own = options;
-  AutoBackend chosen(scene, own);
-  const auto open = [&](const FieldSet& fields) {
-    const Precision usual = own.on == "core" ? Precision::full : Precision::single;
-    return open_backend(scene, fields, own.on, own.precision.value_or(usual), own.threads,
-                        own.hooks.note ? host::CompileWatch() : show_compiling());
-  };
-  // by itself, so that a note comes before meshes that take long
-  const auto device_bytes = [&] { return chosen.with_core_fallback([&] { return largest_buffer(own.on); }); };
+  const auto note = options.hooks.note ? options.hooks.note : print_note;
   const SweepParts parts{
-      [&](const FieldSet& fields) { return chosen.with_core_fallback([&] { return open(fields); }); },
+      [&](const BackendChoice& choice, const FieldSet& fields) {
+        return open_backend(scene, fields, choice.on, choice.precision, options.threads,
+                            options.hooks.note ? host::CompileWatch() : show_compiling());
+      },
       [&] { return make_core_evaluator(scene); },
-      [&] { chosen.with_core_fallback([&] { read_meshes(scene, own, device_bytes); }); },
-      [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, "core", Precision::full, own.threads); },
+      [&](const BackendChoice& asked) {
+        if (!has_meshes(scene)) return asked;
+        std::uint64_t bytes = 0;
+        // by itself, so that a note comes before meshes that take long
+        const BackendChoice choice =
+            with_core_fallback(asked, note, [&](const BackendChoice& here) { bytes = largest_buffer(here.on); });
+        return with_core_fallback(choice, note, [&](const BackendChoice& here) {
+          read_meshes(scene, options, here.on == choice.on ? bytes : largest_buffer(here.on));
+        });
+      },
+      [&](const Scene& other, const FieldSet& fields) {
+        return open_backend(other, fields, "core", Precision::full, options.threads);
+      },
   };
-  return run_sweep(scene, own, parts);
+  return run_sweep(scene, options, choose_backend(scene, options), parts);
 }
 
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts) {
-  return Sweep(scene, options, parts).run();
+  return run_sweep(scene, options, named_backend(options.on, options.precision), parts);
+}
+
+ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts) {
+  return Sweep(scene, options, choice, parts).run();
 }
 
 }  // namespace wholehand

@@ -46,9 +46,10 @@ double since(double start) { return monotonic_now() - start; }
 
 }  // namespace
 
-Sweep::Sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts)
+Sweep::Sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts)
     : scene_(scene),
       options_(options),
+      choice_(choice),
       parts_(parts),
       names_(output_names(options.output.empty() ? default_output(scene) : options.output)),
       best_wanted_(static_cast<std::size_t>(std::max(0, options.best.value_or(scene.output.best)))),
@@ -78,14 +79,14 @@ void Sweep::check() const {
 void Sweep::check_room() const {
   struct stat partial {};
   const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
-  const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
+  const std::size_t real_size = choice_.precision == Precision::single ? sizeof(float) : sizeof(double);
   // a shard takes what its node computes, which is unknown yet
   const double room = options_.shards ? std::numeric_limits<double>::infinity() : free_bytes(names_.target) + reserved;
   SweepSize size = sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size));
   if (size.grips <= LARGEST_SWEEP) {
     const Plan plan(scene_, keeps_vectors(variables_));
     BackendInfo info;
-    info.precision = precision();
+    info.precision = choice_.precision;
     size.bytes = static_cast<double>(result_size({scene_, plan, variables_, {}, info, version(), best_wanted_}));
   }
   check_sweep_size(scene_, size, room);
@@ -129,11 +130,13 @@ ExitCode Sweep::run() {
 }
 
 void Sweep::open() {
-  const Precision asked = precision();
-  if (parts_.prepare) parts_.prepare();
+  const Precision asked = choice_.precision;
+  if (parts_.prepare) choice_ = parts_.prepare(choice_);
   plan_.emplace(scene_, keeps_vectors(variables_));
-  backend_ = parts_.open_backend(make_field_set(swept_fields(), scene_));
-  if (precision() != asked) check_room();  // on the core instead of the device: doubles
+  choice_ = with_core_fallback(
+      choice_, [this](const std::string& line) { note(line); },
+      [this](const BackendChoice& choice) { backend_ = parts_.open_backend(choice, make_field_set(swept_fields(), scene_)); });
+  if (choice_.precision != asked) check_room();  // on the core instead of the device: doubles
   info_ = identified_ = backend_->info();
   evaluator_ = parts_.open_evaluator();
   facts_ = vessel_facts(scene_, *backend_, *evaluator_);
@@ -141,12 +144,12 @@ void Sweep::open() {
 }
 
 void Sweep::print_header() const {
-  if (options_.hooks.warn) options_.hooks.warn(scene_, precision());
+  if (options_.hooks.warn) options_.hooks.warn(scene_, choice_.precision);
   for (const std::string& line : cavity_notes(scene_)) note(line);
   for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) note(line);
   print_text(opening_lines(scene_, plan(), info_) + vessel_lines(scene_, facts_) + unjudged_note(scene_, plan()));
   if (!options_.explain) return;
-  print_text(explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
+  print_text(explain_sweep(scene_, plan(), backend_->fields(), {choice_.on, choice_.precision, options_.threads, best_wanted_}));
 }
 
 void Sweep::note(const std::string& line) const { is_quiet() ? options_.hooks.note(line) : print_note(line); }
@@ -189,16 +192,12 @@ bool Sweep::has_score() const {
 }
 
 ExitCode Sweep::report_already_complete() const {
-  check_complete(names_.result, scene_, options_.on == "core", precision(), variables_);
+  check_complete(names_.result, scene_, choice_.on == "core", choice_.precision, variables_);
   note(fmt::format("{} is complete, so nothing is left to do; the same command without --resume computes it again{}", names_.result,
                    has_usual_order() ? ""
                                      : fmt::format(", and `wholehand rank {} --rank-by {}` lists its grips",
                                                    one_line(names_.result), options_.rank_by)));
   return ExitCode::done;
-}
-
-Precision Sweep::precision() const {
-  return options_.precision.value_or(options_.on == "core" ? Precision::full : Precision::single);
 }
 
 std::map<std::string, std::string> Sweep::identity() const {
@@ -637,7 +636,7 @@ void Sweep::publish(ResultFile& file, BestLists best) {
   const SweepTimes times{since(options_.started), info_.compile_seconds, std::min(wait_seconds_, kernel_seconds_), file.seconds(),
                          file.bytes()};
   print_text("\n" + closing_lines(files, times));
-  if (!options_.alternative.empty()) print_text(backend_line(info_, times, options_.alternative));
+  if (!choice_.alternative.empty()) print_text(backend_line(info_, times, choice_.alternative));
 }
 
 }  // namespace wholehand

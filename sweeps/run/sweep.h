@@ -32,8 +32,8 @@ namespace wholehand {
 
 class Sweep {
  public:
-  // All three must outlive the object.
-  Sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts);
+  // Scene, options and parts must outlive the object.
+  Sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts);
   virtual ~Sweep() = default;
   Sweep(const Sweep&) = delete;
   Sweep& operator=(const Sweep&) = delete;
@@ -47,8 +47,8 @@ class Sweep {
   // Whether there is nothing to resume because the result is complete, and the message for that.
   bool is_already_complete() const;
   ExitCode report_already_complete() const;
-  // Handles meshes, warnings and devices: afterwards plan(), backend_, evaluator_ and facts_ exist. If parts_ have changed options_.on, and with it
-  // the precision, checks the disk space again.
+  // Handles meshes and devices: afterwards plan(), backend_, evaluator_ and facts_ exist. If the core takes a device's place, in another precision,
+  // checks the disk space again.
   void open();
   void print_header() const;
   // A note goes to options.hooks.note if that is set, and print_text then prints nothing; otherwise to standard error.
@@ -76,7 +76,6 @@ class Sweep {
 
   const Plan& plan() const { return *plan_; }
   ResultContents contents() const;
-  Precision precision() const;
   double gate(std::size_t vessel) const;  // gate_tolerance (core/tolerances.h)
   std::map<std::string, std::string> identity() const;
   bool needs_distinct_grips() const;            // whether the best grips must differ
@@ -101,6 +100,7 @@ class Sweep {
 
   const Scene& scene_;
   const SweepOptions& options_;
+  BackendChoice choice_;
   const SweepParts& parts_;
   OutputNames names_;
   std::size_t best_wanted_;

@@ -35,7 +35,7 @@ struct SweepTuning {
 // What the user asks for.
 struct SweepOptions {
   std::string output = {};                  // NAME.nc; empty: the scene file's name with .nc, in the working directory
-  std::string on = "vulkan";                // see open_backend; ON_AUTO (sweeps/run/auto_backend.h) for run_sweep of a scene
+  std::string on = "vulkan";                // see open_backend; or ON_AUTO (sweeps/run/auto_backend.h)
   std::optional<Precision> precision = {};  // absent: double on the core, float elsewhere
   std::optional<int> best = {};             // absent: the scene's
   int glb = 0;                              // this many of the best of each vessel are written as glTF
@@ -50,8 +50,6 @@ struct SweepOptions {
   double started = monotonic_now();  // s of the clock: when the work was requested, for the closing lines too
   // For machines without a shared file system: those with the same name write into one file; empty: those of a node. Absent: all into one.
   std::optional<std::string> shards = {};
-  // The time of the backend that was not chosen; completes the sentence of backend_line. Empty unless `on` was ON_AUTO.
-  std::string alternative = {};
   SweepHooks hooks = {};
   SweepTuning tuning = {};
 };

@@ -185,15 +185,15 @@ offset_mm = {}
 
 SweepParts simulated_parts(const Scene& scene) {
   static const std::shared_ptr<const Evaluator> evaluator = make_core_evaluator(scene);
-  const auto open = [](const FieldSet& fields) { return std::make_unique<SimulatedBackend>(fields); };
   SweepParts parts;
-  parts.prepare = [] {
+  parts.prepare = [](const BackendChoice& choice) {
     sleep_until(simulation().opens.serve(now(), 1 / simulation().job.machine.opens));  // the scene file
     sleep_until(now() + simulation().job.machine.open_seconds);
+    return choice;
   };
-  parts.open_backend = open;
+  parts.open_backend = [](const BackendChoice&, const FieldSet& fields) { return std::make_unique<SimulatedBackend>(fields); };
   parts.open_evaluator = [] { return std::make_unique<SharedEvaluator>(evaluator); };
-  parts.open_core = [open](const Scene&, const FieldSet& fields) { return open(fields); };
+  parts.open_core = [](const Scene&, const FieldSet& fields) { return std::make_unique<SimulatedBackend>(fields); };
   parts.open_output = [](const std::string&) { return std::make_unique<SimulatedFile>(); };
   return parts;
 }

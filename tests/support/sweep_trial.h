@@ -42,7 +42,7 @@ struct SweepTrial {
   }
 
   ExitCode run_bare() {
-    const SweepParts parts{[this](const FieldSet& fields) -> std::unique_ptr<Backend> {
+    const SweepParts parts{[this](const BackendChoice&, const FieldSet& fields) -> std::unique_ptr<Backend> {
                              auto backend = std::make_unique<FakeBackend>(scene, fields, precision, chunk);
                              backend->before_run = before_run;
                              backend->before_chunk = before_chunk;

@@ -62,7 +62,9 @@ TEST(Team, EveryExceptionOfARankIsAnErrorOfAll) {
   scene.vessels[0].name = "cup";
   const SweepOptions options{.output = folder + "/a.nc", .on = "core"};
   SweepParts parts;
-  parts.prepare = [] { throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again)); };
+  parts.prepare = [](const BackendChoice&) -> BackendChoice {
+    throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+  };
   InterruptGuard interrupt(SIGUSR1);
   try {
     run_cluster_sweep(team_of_one(), scene, options, parts, interrupt);
@@ -110,7 +112,9 @@ roll_deg = { from = -90, to = 30, count = 5 }
   const auto swept = [&](const std::string& name, int lost) {
     const SweepOptions options{.output = folder + "/" + name, .on = "core", .threads = 1};
     SweepParts parts;
-    parts.open_backend = [&](const FieldSet& fields) { return open_backend(scene, fields, "core", Precision::full, 1); };
+    parts.open_backend = [&](const BackendChoice&, const FieldSet& fields) {
+      return open_backend(scene, fields, "core", Precision::full, 1);
+    };
     parts.open_evaluator = [&] { return make_core_evaluator(scene); };
     parts.open_core = [](const Scene& other, const FieldSet& fields) {
       return open_backend(other, fields, "core", Precision::full, 1);

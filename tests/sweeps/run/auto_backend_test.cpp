@@ -150,24 +150,24 @@ TEST_F(AutoBackendTest, ASmallSweepRunsOnTheCore) {
 }
 
 TEST_F(AutoBackendTest, ALargeOneRunsOnTheDevice) {
-  const AutoBackend chosen(large_scene(), options_);
-  EXPECT_EQ(options_.on, "vulkan");
-  EXPECT_NE(options_.alternative.find("(`--on core`)"), std::string::npos) << options_.alternative;
+  const BackendChoice choice = choose_backend(large_scene(), options_);
+  EXPECT_EQ(choice.on, "vulkan");
+  EXPECT_NE(choice.alternative.find("(`--on core`)"), std::string::npos) << choice.alternative;
 }
 
 TEST_F(AutoBackendTest, WhatIsAskedForByNameIsTaken) {
   options_.on = "core";
-  AutoBackend named(large_scene(), options_);
-  EXPECT_EQ(options_.on, "core");
-  EXPECT_EQ(options_.alternative, "");
-  EXPECT_THROW(named.with_core_fallback([]() -> int { throw failure_error("gone"); }), Error);
+  const BackendChoice choice = choose_backend(large_scene(), options_);
+  EXPECT_EQ(choice.on, "core");
+  EXPECT_EQ(choice.alternative, "");
+  EXPECT_THROW(with_core_fallback(choice, options_.hooks.note, [](const BackendChoice&) { throw failure_error("gone"); }), Error);
 }
 
 TEST_F(AutoBackendTest, WithoutAnyDeviceTheCoreIsTakenAndTheReasonSaid) {
   const ScopedVariable drivers("VK_DRIVER_FILES", "/nonexistent.json"), older("VK_ICD_FILENAMES", "/nonexistent.json");
-  const AutoBackend chosen(large_scene(), options_);
-  EXPECT_EQ(options_.on, "core");
-  EXPECT_EQ(options_.alternative.find("; no Vulkan driver"), 0u) << options_.alternative;
+  const BackendChoice choice = choose_backend(large_scene(), options_);
+  EXPECT_EQ(choice.on, "core");
+  EXPECT_EQ(choice.alternative.find("; no Vulkan driver"), 0u) << choice.alternative;
 }
 
 // A mesh that is refused is no fault of the device.
@@ -184,18 +184,19 @@ TEST_F(AutoBackendTest, AMeshThatIsRefusedIsRefusedOnce) {
 }
 
 TEST_F(AutoBackendTest, WhatTheCoreRefusesTooIsNoFaultOfTheDevice) {
-  const Scene scene = large_scene();
-  AutoBackend chosen(scene, options_);
-  ASSERT_EQ(options_.on, "vulkan");
-  EXPECT_EQ(refusal_line([&] { chosen.with_core_fallback([&] { throw usage_error(options_.on + " refuses it"); }); }),
-            "core refuses it");
+  const BackendChoice device = choose_backend(large_scene(), options_);
+  ASSERT_EQ(device.on, "vulkan");
+  const auto refuse = [](const BackendChoice& choice) { throw usage_error(choice.on + " refuses it"); };
+  EXPECT_EQ(refusal_line([&] { with_core_fallback(device, options_.hooks.note, refuse); }), "core refuses it");
   EXPECT_EQ(notes_, "");
 
-  options_.on = ON_AUTO;
-  AutoBackend other(scene, options_);
-  EXPECT_EQ(other.with_core_fallback([&] { return options_.on == "core" ? 7 : throw usage_error("it is too large"); }), 7);
+  const BackendChoice core = with_core_fallback(device, options_.hooks.note, [](const BackendChoice& choice) {
+    if (choice.on != "core") throw usage_error("it is too large");
+  });
+  EXPECT_EQ(core.on, "core");
+  EXPECT_EQ(core.precision, Precision::full);
   EXPECT_EQ(notes_, "on core, since the device does not work: it is too large\n");
-  EXPECT_EQ(options_.alternative, "") << "the note replaces the closing sentence";
+  EXPECT_EQ(core.alternative, "") << "the note replaces the closing sentence";
 }
 
 // Doubles of the core take more room than the floats of the device, with which the sweep was let in.
@@ -206,15 +207,15 @@ TEST_F(AutoBackendTest, OnTheCoreInsteadTheRoomIsLookedAtAgain) {
   const double in_float = bytes_per_grip(variables, scene, 4), in_double = bytes_per_grip(variables, scene, 8);
   const double free = free_bytes(options_.output) / static_cast<double>(scene.vessels.size());
   scene.grips.count = static_cast<std::uint64_t>(free / std::sqrt(in_float * in_double));
-  options_.on = "vulkan";
+  const BackendChoice device{.on = "vulkan", .precision = Precision::single, .fallback_precision = Precision::full};
   SweepParts parts;
   bool is_lost = false;
-  parts.open_backend = [&](const FieldSet& fields) {
-    if (is_lost) options_.on = "core";
-    return std::make_unique<FakeBackend>(scene, fields, is_lost ? Precision::full : Precision::single, 64);
+  parts.open_backend = [&](const BackendChoice& choice, const FieldSet& fields) {
+    if (is_lost && choice.on != "core") throw failure_error("device lost");
+    return std::make_unique<FakeBackend>(scene, fields, choice.precision, 64);
   };
   parts.open_evaluator = []() -> std::unique_ptr<Evaluator> { throw failure_error("goes on"); };  // else it would write all that
-  const auto sweep_line = [&] { return refusal_line([&] { run_sweep(scene, options_, parts); }, ExitCode::failure); };
+  const auto sweep_line = [&] { return refusal_line([&] { run_sweep(scene, options_, device, parts); }, ExitCode::failure); };
   EXPECT_EQ(sweep_line(), "goes on");
   is_lost = true;
   EXPECT_NE(sweep_line().find("there is room for only"), std::string::npos);
@@ -231,9 +232,9 @@ TEST_F(AutoBackendTest, ResumingGoesOnWhereTheSweepBegan) {
     again.precision.reset();
     again.resume = true;
     EXPECT_EQ(run_sweep(scene_, again), ExitCode::done) << "else it refuses another backend";
-    const AutoBackend chosen(scene_, again);
-    EXPECT_EQ(again.on == "core", is_core);
-    EXPECT_EQ(again.precision, precision);
+    const BackendChoice choice = choose_backend(scene_, again);
+    EXPECT_EQ(choice.on == "core", is_core);
+    EXPECT_EQ(choice.precision, precision);
   }
 }
 
@@ -244,9 +245,9 @@ TEST_F(AutoBackendTest, AnInterruptedSweepGoesOnWhereItBegan) {
   mark.identity = {{"backend", "vulkan"}, {"device", "some device"}, {"precision", "double"}};
   save_mark(names.mark, mark);
   options_.resume = true;
-  const AutoBackend chosen(scene_, options_);
-  EXPECT_EQ(options_.on, "some device");
-  EXPECT_EQ(options_.precision, Precision::full);
+  const BackendChoice choice = choose_backend(scene_, options_);
+  EXPECT_EQ(choice.on, "some device");
+  EXPECT_EQ(choice.precision, Precision::full);
 }
 
 }  // namespace

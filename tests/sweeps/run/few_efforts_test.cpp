@@ -87,7 +87,7 @@ Swept sweep_on(const std::string& on, const Scene& scene) {
   const TemporaryFolder folder;
   Swept swept;
   SweepParts parts;
-  parts.open_backend = [&](const FieldSet& fields) {
+  parts.open_backend = [&](const BackendChoice&, const FieldSet& fields) {
     return std::make_unique<CountsUnjudged>(open_on(on, scene, fields), swept.unjudged);
   };
   parts.open_evaluator = [&] { return make_core_evaluator(scene); };

@@ -56,7 +56,7 @@ struct Interrupted final : Backend {
 
 ExitCode sweep_on_device(const Scene& scene, SweepOptions options, bool is_interrupted) {
   SweepParts parts;
-  parts.open_backend = [&](const FieldSet& fields) -> std::unique_ptr<Backend> {
+  parts.open_backend = [&](const BackendChoice&, const FieldSet& fields) -> std::unique_ptr<Backend> {
     auto backend = open_backend(scene, fields, "vulkan", Precision::single, 0);
     if (is_interrupted) return std::make_unique<Interrupted>(std::move(backend));
     return backend;

@@ -212,8 +212,9 @@ TEST_F(RunTest, BackendThatDeliversNothingIsAFailure) {
   };
   const Scene scene = fake_scene();
   const SweepOptions options{.output = folder / "a.nc"};
-  const SweepParts parts{[&](const FieldSet& fields) { return std::make_unique<Silent>(scene, fields, Precision::full, 10); },
-                         [&] { return std::make_unique<FakeEvaluator>(scene); }};
+  const SweepParts parts{
+      [&](const BackendChoice&, const FieldSet& fields) { return std::make_unique<Silent>(scene, fields, Precision::full, 10); },
+      [&] { return std::make_unique<FakeEvaluator>(scene); }};
   testing::internal::CaptureStdout();
   EXPECT_THROW(run_sweep(scene, options, parts), Error);
   testing::internal::GetCapturedStdout();
@@ -226,7 +227,7 @@ TEST_F(RunTest, CoreOnThreadsGivesTheSameFile) {
   const auto open = [&](const FieldSet& fields) {
     return std::make_unique<CoreBackend>(std::make_unique<FakeEvaluator>(scene), scene, fields, Precision::full, 3);
   };
-  const SweepParts parts{open,
+  const SweepParts parts{[&](const BackendChoice&, const FieldSet& fields) { return open(fields); },
                          [&] { return std::make_unique<FakeEvaluator>(scene); },
                          {},
                          [&](const Scene&, const FieldSet& fields) { return open(fields); }};
@@ -245,7 +246,7 @@ TEST_F(RunTest, WhereNotesAreAskedForNothingIsPrinted) {
   scene.robust.emplace().azimuth = 0.1;  // about bodies of revolution it changes nothing, which is a note
   scene.output.best = 0;
   const auto open = [&](const FieldSet& fields) { return std::make_unique<FakeBackend>(scene, fields, Precision::full, 10); };
-  const SweepParts parts{open,
+  const SweepParts parts{[&](const BackendChoice&, const FieldSet& fields) { return open(fields); },
                          [&] { return std::make_unique<FakeEvaluator>(scene); },
                          {},
                          [&](const Scene&, const FieldSet& fields) { return open(fields); }};
