@@ -23,11 +23,9 @@ namespace {
 
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
-BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, const Scene& scene,
-                   const std::vector<double>& last_tilts, const GripInput& grip) {
+void read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, const Scene& scene,
+               const std::vector<double>& last_tilts, BestGrip& best) {
   const auto real = [&](int field, int plane = 0) { return chunk.real(fields.plane[field] + plane, i); };
-  BestGrip best;
-  best.grip = grip;
   best.score = real(FIELD_SCORE);
   for (int term = 0; term < 6; ++term) best.terms[term] = real(FIELD_TERMS, term);
   best.closure = real(FIELD_CLOSURE);
@@ -39,7 +37,6 @@ BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t 
   best.antipodal = (chunk.uint(fields.plane[FIELD_STATUS], i) & STATUS_ANTIPODAL) != 0;
   best.points_touching = std::popcount(chunk.uint(fields.plane[FIELD_TOUCH_MASK], i));
   set_worst(best, scene, last_tilts, real);
-  return best;
 }
 
 // Empty where there is no number.
@@ -117,31 +114,32 @@ void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& la
   best.largest_hold = best.efforts.tips_worst * hand.weaker_tip();
 }
 
-std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
-                                    const std::vector<Candidate>& candidates) {
-  std::vector<BestGrip> best(candidates.size());
-  if (candidates.empty()) return best;
+void evaluate_best(Backend& backend, const Scene& scene, std::size_t vessel, std::vector<BestGrip>& grips) {
+  if (grips.empty()) return;
   const std::vector<double> last = last_tilts(scene, vessel);
   RunRequest request;
   request.vessel = vessel;
-  request.last = candidates.size();
+  request.last = grips.size();
   request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
-    for (std::size_t i = 0; i < count; ++i) out[i] = plan.grip(vessel, candidates[first + i].index);
+    for (std::size_t i = 0; i < count; ++i) out[i] = grips[first + i].grip;
   };
   request.sink = [&](const PlaneChunk& chunk) {
     for (std::size_t i = 0; i < chunk.count; ++i) {
-      BestGrip& grip = best[chunk.first + i];
-      const Candidate& candidate = candidates[chunk.first + i];
-      grip = read_best(chunk, backend.fields(), i, scene, last, plan.grip(vessel, candidate.index));
-      grip.candidate = candidate;
+      BestGrip& grip = grips[chunk.first + i];
+      read_best(chunk, backend.fields(), i, scene, last, grip);
       grip.rank = chunk.first + i + 1;
     }
   };
   const RunResult result = backend.run(request);
-  if (result.done != candidates.size()) {
-    throw failure_error(
-        fmt::format("{}: evaluated {} of the {} best grips", backend.info().device, result.done, candidates.size()));
-  }
+  if (result.done != grips.size())
+    throw failure_error(fmt::format("{}: evaluated {} of the {} best grips", backend.info().device, result.done, grips.size()));
+}
+
+std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
+                                    const std::vector<Candidate>& candidates) {
+  std::vector<BestGrip> best;
+  for (const Candidate& candidate : candidates) best.push_back(bare_grip(plan, vessel, candidate));
+  evaluate_best(backend, scene, vessel, best);
   return best;
 }
 

@@ -65,8 +65,9 @@ BestGrip bare_grip(const Plan& plan, std::size_t vessel, const Candidate& candid
 // FIELD_* from which a BestGrip is read.
 std::vector<int> best_fields(const Scene& scene);
 
-// Evaluates the candidates of a vessel again, because a sweep need not have kept all their figures. The backend must keep best_fields(). Throws Error
-// (failure) if it delivers fewer.
+// Evaluates a vessel's grips again, because a sweep need not have kept all their figures: sets these and the ranks, but no refined places and robust
+// scores. The backend must keep best_fields(). Throws Error (failure) if it delivers fewer.
+void evaluate_best(Backend& backend, const Scene& scene, std::size_t vessel, std::vector<BestGrip>& grips);
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
                                     const std::vector<Candidate>& candidates);
 

@@ -246,16 +246,14 @@ std::vector<std::string> row_variables(const Scene& scene) {
   return names;
 }
 
-// All reported figures of some grips, from the file.
-std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel,
-                                const std::vector<Candidate>& candidates) {
+// Sets all reported figures of some grips, from the file.
+void read_rows(const SweepResult& result, const Scene& scene, std::size_t vessel, std::vector<BestGrip>& best) {
   std::vector<std::uint64_t> grips;
-  for (const Candidate& candidate : candidates) grips.push_back(candidate.index);
+  for (const BestGrip& grip : best) grips.push_back(grip.candidate.index);
   const auto pick = [&](const std::string& name, std::size_t plane = 0) {
     const Variable* variable = result.find(name);
     return variable ? result.pick(*variable, vessel, plane, grips) : std::vector<double>(grips.size(), std::nan(""));
   };
-  std::vector<BestGrip> best(grips.size());
   for (std::size_t term = 0; term < TERMS.size(); ++term) {
     if (!has_term(scene, term)) continue;
     const auto values = pick(variable_of(term));
@@ -284,10 +282,8 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
     best[i].palm_depth = palm[i];
     if (scene.arm) best[i].wrist_share = wrist[i];
     best[i].antipodal = antipodal[i] != 0;
-    best[i].grip = plan.grip(vessel, grips[i]);
     set_worst(best[i], scene, last, [&](int field, int plane) { return of_states.at(field)[static_cast<std::size_t>(plane)][i]; });
   }
-  return best;
 }
 
 // Sets what the sweep refined of the grips that it listed, too.
@@ -353,9 +349,10 @@ Scene with_weights(const Scene& scene, const std::array<double, 6>& weights, dou
 
 // Ranks the grips of each list by the core's robust scores; those of a list without a holding grip stay in the order of their efforts.
 void rank_held_by_robust(const Scene& scene, const Plan& plan, const std::array<double, 6>& weights, std::size_t best,
-                         const Ranking& ranking, BestLists& lists) {
+                         Ranking& ranking) {
   double factor = 1;
   const Scene weighted = with_weights(scene, weights, factor);
+  BestLists& lists = ranking.lists;
   BestLists held = lists;
   for (std::size_t list = 0; list < lists.size(); ++list)
     if (none_holds(ranking, list)) held[list].clear();
@@ -456,22 +453,11 @@ std::unique_ptr<CoreBackend> open_for_missing(const SweepResult& result, const S
   return core;
 }
 
-// The grips of a list with all reported figures: from the file, or from the core if it is not null.
-std::vector<BestGrip> with_figures(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t list,
-                                   const std::vector<BestGrip>& places, Scores& scores, CoreBackend* core) {
-  const std::size_t vessel = list / plan.hand_scales();
-  std::vector<Candidate> chosen;
-  for (const BestGrip& grip : places) {
-    chosen.push_back(grip.candidate);
-    scores.read(vessel, grip.candidate.index, 1, &chosen.back().score);
-  }
-  auto grips = core ? evaluate_best(*core, scene, plan, vessel, chosen) : read_rows(result, scene, plan, vessel, chosen);
-  for (std::size_t i = 0; i < grips.size(); ++i) {
-    grips[i].candidate = chosen[i];
-    grips[i].rank = i + 1;
-    grips[i].robust = places[i].robust;
-  }
-  return grips;
+// Sets all reported figures of the grips of a list: from the file, or from the core if it is not null.
+void set_figures(const SweepResult& result, const Scene& scene, std::size_t vessel, Scores& scores, CoreBackend* core,
+                 std::vector<BestGrip>& grips) {
+  for (BestGrip& grip : grips) scores.read(vessel, grip.candidate.index, 1, &grip.candidate.score);
+  core ? evaluate_best(*core, scene, vessel, grips) : read_rows(result, scene, vessel, grips);
 }
 
 }  // namespace
@@ -598,23 +584,24 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
   Ranking ranking{{}, none, none, none, none, ""};
   const bool is_robust = request.by == RankBy::robust;
   const std::shared_ptr<const Evaluator> posing = request.apart > 0 || is_robust ? open_core() : nullptr;
-  BestLists places;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v)
     for (const ListProgress& list : rank_vessel(result, scene, plan, v, keys, where.get(), request, posing.get(), ranking)) {
-      places.emplace_back();
-      for (const Candidate& candidate : list.chosen) places.back().push_back(bare_grip(plan, v, candidate));
+      ranking.lists.emplace_back();
+      for (const Candidate& candidate : list.chosen) ranking.lists.back().push_back(bare_grip(plan, v, candidate));
     }
   const std::unique_ptr<CoreBackend> core = open_for_missing(
       result, scene, [&] { return posing ? posing : open_core(); }, ranking.note);
-  if (is_robust) rank_held_by_robust(scene, plan, scores.weights(), request.best, ranking, places);
+  if (is_robust) rank_held_by_robust(scene, plan, scores.weights(), request.best, ranking);
   for (std::size_t list = 0; list < lists; ++list) {
-    std::vector<BestGrip> grips = with_figures(result, scene, plan, list, places[list], scores, core.get());
-    for (BestGrip& grip : grips) grip.score = none_holds(ranking, list) ? 0 : grip.candidate.score;
-    if (scores.is_sweeps_own()) {
-      set_refined(result, plan, list, grips);
-      if (!is_robust) set_robust(result, plan, list, grips);
+    std::vector<BestGrip>& grips = ranking.lists[list];
+    set_figures(result, scene, list / plan.hand_scales(), scores, core.get(), grips);
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      grips[i].score = none_holds(ranking, list) ? 0 : grips[i].candidate.score;
+      grips[i].rank = i + 1;
     }
-    ranking.lists.push_back(std::move(grips));
+    if (!scores.is_sweeps_own()) continue;
+    set_refined(result, plan, list, grips);
+    if (!is_robust) set_robust(result, plan, list, grips);
   }
   return ranking;
 }
