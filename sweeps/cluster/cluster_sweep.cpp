@@ -34,13 +34,13 @@
 #include "sweeps/cluster/packet.h"
 #include "sweeps/cluster/work_range.h"
 #include "sweeps/lists/hand_lists.h"
-#include "sweeps/lists/refine.h"
-#include "sweeps/lists/robust.h"
 #include "sweeps/result/output_names.h"
 #include "sweeps/result/shard.h"
 #include "sweeps/result/tally.h"
 #include "sweeps/run/auto_backend.h"
+#include "sweeps/run/ending.h"
 #include "sweeps/run/sweep.h"
+#include "sweeps/run/sweep_state.h"
 
 namespace wholehand {
 namespace {
@@ -125,8 +125,23 @@ template <class T>
 T share_value(Team& team, const T& from_leader) {
   PacketWriter packet;
   packet.put(from_leader);
-  const std::string bytes = team.share(packet.bytes());
-  return PacketReader(bytes).take<T>();
+  return PacketReader(team.share(packet.bytes())).take<T>();
+}
+
+// The values of all ranks on the leader; elsewhere only the own one.
+template <class T>
+std::vector<T> gather_values(Team& team, const T& own) {
+  PacketWriter packet;
+  packet.put(own);
+  std::vector<T> values{own};
+  team.gather(packet.bytes(), [&](int, const std::string& message) { values.push_back(PacketReader(message).take<T>()); });
+  return values;
+}
+
+std::vector<std::string> gather_texts(Team& team, const std::string& own) {
+  std::vector<std::string> texts{own};
+  team.gather(own, [&](int, const std::string& message) { texts.push_back(message); });
+  return texts;
 }
 
 void put_error(PacketWriter& packet, const Team& team, const std::optional<Error>& error) {
@@ -190,111 +205,112 @@ std::string own_device(const Team& team, const std::string& asked) {
   return fmt::format("vulkan:{}", alike[static_cast<std::size_t>(team.local_rank()) % alike.size()]);
 }
 
-class ClusterSweep final : public Sweep {
+class ClusterSweep {
  public:
   ClusterSweep(Team& team, const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts,
                InterruptGuard& interrupt)
-      : Sweep(scene, options, choice, parts), team_(team), interrupt_(interrupt), figures_(static_cast<std::size_t>(team.size())) {}
+      : team_(team),
+        interrupt_(interrupt),
+        scene_(scene),
+        options_(options),
+        sweep_(scene, options, choice, parts, team.size() > 1 ? fmt::format("rank {} on {}: ", team.rank(), team.node()) : ""),
+        figures_(static_cast<std::size_t>(team.size())) {}
 
-  ExitCode run() override {
-    InterruptGuard& interrupt = interrupt_;
+  ExitCode run() {
     std::signal(SIGXFSZ, SIG_IGN);
-    std::optional<OutputLock> lock;
-    bool is_already_done = false;
-    agree([&] {
-      check_shard_name();
-      if (!team_.is_leader()) return;
-      is_already_done = is_already_complete();
-      if (is_already_done) return;
-      check();
-      lock.emplace(names_.lock);
-      is_already_done = is_already_complete();  // by who had the lock until now
-    });
-    if (share_flag(is_already_done)) {
-      agree([&] {
-        if (team_.is_leader()) report_already_complete();
-      });
-      return ExitCode::done;
-    }
-    agree([&] { open(); });
+    if (is_already_done()) return ExitCode::done;
+    agree([&] { sweep_.open(); });
     compare_ranks();
     check_lost_mark();
-    if (!all_of(!interrupt.signalled())) {
+    if (!all_of(!interrupt_.signalled())) {
       if (team_.is_leader())
         print_note("interrupted before the first grip; no file has changed, and the same command starts again");
       return ExitCode::interrupted;
     }
-    if (team_.is_leader()) print_header();
-    const ResultContents written = contents();
-    std::unique_ptr<ResultFile> file;
-    bool is_resumed = false;
-    agree([&] {
-      if (!team_.is_leader()) return;
-      is_resumed = begin();
-      const FileStart start = is_resumed ? FileStart::resumed : options_.shards ? FileStart::sparse : FileStart::reserved;
-      file = std::make_unique<ResultFile>(names_, written, backend_->fields(), start, parts_.open_output);
-      begin_shards(*file);
-      // from now on, shards of this sweep come with its mark
-      if (options_.shards && !is_resumed) save(*file);
-    });
-    is_marked_ = share_flag(is_resumed);
-    share_groups();
-    const FilePlaces places = share_places(file.get());
-    std::optional<OutputLock> shard_lock;
-    OutputNames own_names = names_;
-    if (own_group() > 0) own_names.partial = shard_path(names_, groups_[own_group()].name);
-    bool is_there = true;
-    agree([&] {
-      if (own_group() == 0 || groups_[own_group()].ranks[0] != team_.rank()) return;
-      shard_lock.emplace(own_names.partial + SHARD_LOCK_END);
-      is_there = is_marked_ && is_shard(own_names.partial, shard_id_);
-      if (is_there) return;
-      if (begins_with(own_names.partial, SHARD_START))
-        note_as_rank({own_names.partial + " is a shard of another sweep: replacing it"});
-      make_shard(own_names.partial, shard_id_, layout_);
-    });
-    share_stretches(is_there);
-    agree([&] {
-      if (own_group() == 0 && access(own_names.partial.c_str(), F_OK) != 0 && errno == ENOENT)
-        throw failure_error(own_names.partial + " is not there, though rank 0 has it; " + SHARED_FILES);
-      if (!team_.is_leader())
-        file = std::make_unique<ResultFile>(own_names, written, backend_->fields(), places, parts_.open_output);
-    });
-    compare_files(*file);
+    if (team_.is_leader()) sweep_.print_header();
+    contents_.emplace(sweep_.contents());
+    open_files();
     set_lists();
-    if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (needs_distinct_grips() && !choose(*file, interrupt)) ||
-        !read_back(*file, interrupt))
-      return team_.is_leader() ? interrupted() : ExitCode::interrupted;
-    if (!team_.is_leader()) file.reset();
+    if (!repair() || !sweep() || (sweep_.needs_distinct_grips() && !choose()) || !read_back()) return interrupted();
+    if (!team_.is_leader()) file_.reset();
     team_.meet();
     bool is_completed = false;
-    const auto ending = [&] {
-      BestLists best(scene_.vessels.size() * plan().hand_scales());
-      agree([&] {
-        if (team_.is_leader()) best = find_best();
-      });
-      is_completed = complete_together(best, interrupt);
-      agree([&] {
-        if (!team_.is_leader()) return;
-        if (!is_completed) return save(*file);
-        publish(*file, best);
-        print_ranks();
-        print_shards();
-      });
-    };
+    const auto ending = [&] { is_completed = complete_together(); };
     if (team_.is_leader()) {
-      run_and_save_on_failure(*file, ending);
+      state_.run_and_save_on_failure(*file_, ending);
     } else {
       ending();
     }
-    if (is_completed) {
-      remove_unused_shard(own_names.partial);
-      return ExitCode::done;
-    }
-    return team_.is_leader() ? interrupted() : ExitCode::interrupted;
+    if (!is_completed) return interrupted();
+    remove_unused_shard();
+    return ExitCode::done;
   }
 
  private:
+  const Plan& plan() const { return sweep_.plan(); }
+  ExitCode interrupted() const { return team_.is_leader() ? state_.interrupted() : ExitCode::interrupted; }
+
+  // Takes the lock of the result, unless it is complete and the user has asked to resume.
+  bool is_already_done() {
+    bool is_done = false;
+    agree([&] {
+      check_shard_name();
+      if (!team_.is_leader()) return;
+      is_done = sweep_.is_already_complete();
+      if (is_done) return;
+      sweep_.check();
+      lock_.emplace(sweep_.names().lock);
+      is_done = sweep_.is_already_complete();  // by who had the lock until now
+    });
+    if (!share_flag(is_done)) return false;
+    agree([&] {
+      if (team_.is_leader()) sweep_.report_already_complete();
+    });
+    return true;
+  }
+
+  // The leader makes or resumes the result's file. All others open it, or the shard of their group.
+  void open_files() {
+    const OpenOutput& open_output = sweep_.parts().open_output;
+    bool is_resumed = false;
+    agree([&] {
+      if (!team_.is_leader()) return;
+      is_resumed = state_.begin();
+      const FileStart start = is_resumed ? FileStart::resumed : options_.shards ? FileStart::sparse : FileStart::reserved;
+      file_ = std::make_unique<ResultFile>(sweep_.names(), *contents_, sweep_.fields(), start, open_output);
+      begin_shards();
+      // from now on, shards of this sweep come with its mark
+      if (options_.shards && !is_resumed) state_.save(*file_);
+    });
+    is_resumed = share_flag(is_resumed);
+    share_groups();
+    const FilePlaces places = share_places();
+    bool is_there = true;
+    agree([&] { is_there = open_shard(is_resumed); });
+    share_stretches(is_there);
+    agree([&] {
+      const std::string& path = own_names_.partial;
+      if (own_group() == 0 && access(path.c_str(), F_OK) != 0 && errno == ENOENT)
+        throw failure_error(path + " is not there, though rank 0 has it; " + SHARED_FILES);
+      if (!team_.is_leader()) file_ = std::make_unique<ResultFile>(own_names_, *contents_, sweep_.fields(), places, open_output);
+    });
+    compare_files();
+  }
+
+  // The first rank of a group opens its shard. False: it made a new one.
+  bool open_shard(bool is_resumed) {
+    own_names_ = sweep_.names();
+    if (own_group() == 0) return true;
+    own_names_.partial = shard_path(own_names_, groups_[own_group()].name);
+    if (groups_[own_group()].ranks[0] != team_.rank()) return true;
+    shard_lock_.emplace(own_names_.partial + SHARD_LOCK_END);
+    if (is_resumed && is_shard(own_names_.partial, shard_id_)) return true;
+    if (begins_with(own_names_.partial, SHARD_START))
+      note_as_rank({own_names_.partial + " is a shard of another sweep: replacing it"});
+    make_shard(own_names_.partial, shard_id_, layout_);
+    return false;
+  }
+
   // ---- what all do together ----
 
   // Does the work on each rank. All ranks throw an Error of any of them.
@@ -305,14 +321,15 @@ class ClusterSweep final : public Sweep {
 
   // All ranks must compute the same, with the same program. They may use different devices; then the file names all.
   void compare_ranks() {
-    std::map<std::string, std::string> own = identity();
+    std::map<std::string, std::string> own = sweep_.identity();
     PacketWriter packet;
     for (const auto& [key, value] : own) packet.put(checksum_text(value.data(), value.size()));
-    for (const std::string& text : {info_.device, info_.driver, team_.node(), own.at("code"), base_name(names_.result)})
+    for (const std::string& text :
+         {sweep_.info().device, sweep_.info().driver, team_.node(), own.at("code"), base_name(sweep_.names().result)})
       packet.put(text);
-    std::map<std::string, int> devices{{info_.device, 1}};
-    std::set<std::string> drivers{info_.driver};
-    devices_.push_back(info_.device);
+    std::map<std::string, int> devices{{sweep_.info().device, 1}};
+    std::set<std::string> drivers{sweep_.info().driver};
+    devices_.push_back(sweep_.info().device);
     std::optional<Error> unlike;
     team_.gather(packet.bytes(), [&](int rank, const std::string& message) {
       PacketReader reader(message);
@@ -328,9 +345,9 @@ class ClusterSweep final : public Sweep {
         unlike = usage_error(fmt::format("rank {} on {} has another {}: {}, and rank 0 on {} has {}; start the same on every node",
                                          rank, node, key, is_code ? code : its, team_.node(), is_code ? value : own_checksum));
       }
-      if (!unlike && result != base_name(names_.result))
+      if (!unlike && result != base_name(sweep_.names().result))
         unlike = usage_error(fmt::format("rank {} on {} writes {}, and rank 0 on {} writes {}; name the same result on every node",
-                                         rank, node, result, team_.node(), base_name(names_.result)));
+                                         rank, node, result, team_.node(), base_name(sweep_.names().result)));
       ++devices[its_device];
       drivers.insert(driver);
       devices_.push_back(its_device);
@@ -345,12 +362,10 @@ class ClusterSweep final : public Sweep {
     names.put(all_devices);
     names.put(all_drivers);
     names.put(kinds);
-    const std::string bytes = team_.share(names.bytes());
-    PacketReader reader(bytes);
-    info_.device = reader.take_text();
-    info_.driver = identified_.driver = reader.take_text();
-    identified_.device = reader.take_text();
-    if (team_.is_leader() && devices.size() > 1 && info_.backend != "core")
+    PacketReader reader(team_.share(names.bytes()));
+    const std::string shared_devices = reader.take_text(), shared_drivers = reader.take_text(), shared_kinds = reader.take_text();
+    sweep_.name_devices(shared_devices, shared_kinds, shared_drivers);
+    if (team_.is_leader() && devices.size() > 1 && sweep_.info().backend != "core")
       print_note("the ranks have different devices: the last bits of a value depend on who computed it");
   }
 
@@ -372,7 +387,7 @@ class ClusterSweep final : public Sweep {
   // Before any work: the file system would refuse a too long name only once the ranks are running.
   void check_shard_name() const {
     if (!options_.shards) return;
-    const std::string file = base_name(shard_path(names_, own_name()) + SHARD_LOCK_END);
+    const std::string file = base_name(shard_path(sweep_.names(), own_name()) + SHARD_LOCK_END);
     if (file.size() > NAME_MAX)
       throw usage_error(fmt::format(
           "{}: a file's name has {} letters at most; name another result with -o, or another shard with --shard", file, NAME_MAX));
@@ -381,36 +396,30 @@ class ClusterSweep final : public Sweep {
   // A sweep to resume whose mark is on another node must not start again, because that would replace all shards.
   void check_lost_mark() {
     struct stat file {};
-    const bool is_new = options_.shards && options_.resume && stat(names_.mark.c_str(), &file) != 0;
+    const bool is_new = options_.shards && options_.resume && stat(sweep_.names().mark.c_str(), &file) != 0;
     if (!share_flag(is_new)) return;
     agree([&] {
-      const std::string path = shard_path(names_, own_name());
-      if (!begins_with(path, SHARD_START) && (team_.is_leader() || stat(names_.mark.c_str(), &file) != 0)) return;
+      const std::string path = shard_path(sweep_.names(), own_name());
+      if (!begins_with(path, SHARD_START) && (team_.is_leader() || stat(sweep_.names().mark.c_str(), &file) != 0)) return;
       throw usage_error(
           fmt::format("{} is here, but on the node of rank 0 there is no {}; start rank 0 where that file is, or "
                       "begin the sweep anew without --resume",
-                      begins_with(path, SHARD_START) ? path : names_.mark, names_.mark));
+                      begins_with(path, SHARD_START) ? path : sweep_.names().mark, sweep_.names().mark));
     });
   }
 
-  void begin_shards(const ResultFile& file) {
+  void begin_shards() {
     if (!options_.shards) return;
-    if (!mark_.shards) mark_.shards = ShardMark{new_shard_id(), file.layout(), false};
+    if (!mark_.shards) mark_.shards = ShardMark{new_shard_id(), file_->layout(), false};
     mark_.shards->is_ended = false;
   }
 
   // The leader's group comes first. It writes into the result's file, and all others into shards.
   void share_groups() {
-    const std::string own = own_name();
-    std::vector<std::string> names{own};
-    PacketWriter packet;
-    packet.put(own);
-    team_.gather(packet.bytes(), [&](int, const std::string& message) { names.push_back(PacketReader(message).take_text()); });
     PacketWriter all;
-    for (const std::string& name : names) all.put(name);
+    for (const std::string& name : gather_texts(team_, own_name())) all.put(name);
     all.put(mark_.shards ? mark_.shards->id : "");
-    const std::string bytes = team_.share(all.bytes());
-    PacketReader reader(bytes);
+    PacketReader reader(team_.share(all.bytes()));
     for (int rank = 0; rank < team_.size(); ++rank) {
       const std::string name = reader.take_text();
       const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& other) { return other.name == name; });
@@ -422,7 +431,7 @@ class ClusterSweep final : public Sweep {
   }
 
   // A node without grips leaves no file.
-  void remove_unused_shard(const std::string& path) {
+  void remove_unused_shard() {
     std::vector<std::uint64_t> used(groups_.size());
     for (const VesselProgress& vessel : mark_.vessels) {
       for (const Stretch& stretch : vessel.stretches)
@@ -430,29 +439,21 @@ class ClusterSweep final : public Sweep {
     }
     PacketWriter packet;
     packet.put(used);
-    const std::string bytes = team_.share(packet.bytes());
-    used = PacketReader(bytes).take_all<std::uint64_t>();
-    if (own_group() > 0 && used[own_group()] == 0 && groups_[own_group()].ranks[0] == team_.rank()) unlink(path.c_str());
+    used = PacketReader(team_.share(packet.bytes())).take_all<std::uint64_t>();
+    if (own_group() > 0 && used[own_group()] == 0 && groups_[own_group()].ranks[0] == team_.rank())
+      unlink(own_names_.partial.c_str());
   }
 
   // Throws if ranks of one group have opened different files of one name.
-  void compare_files(const ResultFile& file) {
-    std::vector<std::uint64_t> inodes{file.inode()};
-    std::vector<std::string> nodes{team_.node()};
-    PacketWriter packet;
-    packet.put(file.inode());
-    packet.put(team_.node());
-    team_.gather(packet.bytes(), [&](int, const std::string& message) {
-      PacketReader reader(message);
-      inodes.push_back(reader.take<std::uint64_t>());
-      nodes.push_back(reader.take_text());
-    });
+  void compare_files() {
+    const std::vector<std::uint64_t> inodes = gather_values(team_, file_->inode());
+    const std::vector<std::string> nodes = gather_texts(team_, team_.node());
     std::optional<Error> unlike;
     for (std::size_t rank = 0; rank < inodes.size() && !unlike; ++rank) {
       const Group& group = groups_[group_of_[rank]];
       const auto first = static_cast<std::size_t>(group.ranks[0]);
       if (inodes[rank] == inodes[first]) continue;
-      const std::string path = group_of_[rank] == 0 ? names_.partial : shard_path(names_, group.name);
+      const std::string path = group_of_[rank] == 0 ? sweep_.names().partial : shard_path(sweep_.names(), group.name);
       const char* remedy = options_.shards
                                ? "who writes one shard must share a file system: give nodes other names with --shard NAME"
                                : SHARED_FILES;
@@ -519,11 +520,9 @@ class ClusterSweep final : public Sweep {
 
   // Which grips exist, where, and what vouches for them: each rank keeps its own part. `is_there`: this rank's file is not new.
   void share_stretches(bool is_there) {
-    PacketWriter own;
-    own.put(is_there);
-    team_.gather(own.bytes(), [&](int rank, const std::string& message) {
-      if (!PacketReader(message).take<bool>()) groups_[group_of_[static_cast<std::size_t>(rank)]].is_new = true;
-    });
+    const std::vector<char> are_there = gather_values<char>(team_, is_there);
+    for (std::size_t rank = 1; rank < are_there.size(); ++rank)
+      if (!are_there[rank]) groups_[group_of_[rank]].is_new = true;
     PacketWriter packet;
     if (team_.is_leader()) {
       for (const VesselProgress& vessel : mark_.vessels) packet.put(vessel.done);
@@ -533,8 +532,7 @@ class ClusterSweep final : public Sweep {
           stretches.emplace_back(v, stretch.first, stretch.last, group_of(stretch), stretch.checksum.c_str());
       packet.put(stretches);
     }
-    const std::string bytes = team_.share(packet.bytes());
-    PacketReader reader(bytes);
+    PacketReader reader(team_.share(packet.bytes()));
     mark_.vessels.resize(scene_.vessels.size());
     for (VesselProgress& vessel : mark_.vessels) vessel.done = reader.take<std::uint64_t>();
     stretches_ = {};
@@ -545,18 +543,17 @@ class ClusterSweep final : public Sweep {
       if (turns.next(stretch.group) == team_.rank()) stretches_.push_back(stretch);
   }
 
-  FilePlaces share_places(const ResultFile* file) {
+  FilePlaces share_places() {
     PacketWriter packet;
-    if (file) {
-      packet.put(file->places().variables);
-      packet.put(file->places().axes);
-      packet.put(file->places().height.has_value());
-      packet.put(file->places().height.value_or(0));
-      packet.put(file->places().best);
-      packet.put(file->layout().blocks);
+    if (file_) {
+      packet.put(file_->places().variables);
+      packet.put(file_->places().axes);
+      packet.put(file_->places().height.has_value());
+      packet.put(file_->places().height.value_or(0));
+      packet.put(file_->places().best);
+      packet.put(file_->layout().blocks);
     }
-    const std::string bytes = team_.share(packet.bytes());
-    PacketReader reader(bytes);
+    PacketReader reader(team_.share(packet.bytes()));
     FilePlaces places;
     places.variables = reader.take_all<std::uint64_t>();
     places.axes = reader.take_all<std::uint64_t>();
@@ -575,22 +572,22 @@ class ClusterSweep final : public Sweep {
     while (maps_.size() < vessels) maps_.emplace_back(plan());
     for (const HeatMap& map : maps_) reported_cells_.push_back(map.scores());
     for (const VesselProgress& vessel : mark_.vessels) {
-      best_.emplace_back(plan(), kept_best(), vessel.best);
-      fresh_.emplace_back(std::in_place, plan(), kept_best(), std::vector<Candidate>());
+      best_.emplace_back(plan(), sweep_.kept_best(), vessel.best);
+      fresh_.emplace_back(std::in_place, plan(), sweep_.kept_best(), std::vector<Candidate>());
     }
-    has_eligible_ = needs_distinct_grips() && done() == 0;
-    reported_ = done();
+    has_eligible_ = sweep_.needs_distinct_grips() && state_.done() == 0;
+    reported_ = state_.done();
   }
 
   // Each rank reads some of the stretches back, or recomputes them. From time to time the mark records where the latter now lie. False: interrupted.
-  bool repair(ResultFile& file, InterruptGuard& interrupt) {
-    const bool is_whole = !has_stretches_ || repair_stretches(file, interrupt);
+  bool repair() {
+    const bool is_whole = !has_stretches_ || repair_stretches();
     stretches_ = {};
     for (Group& group : groups_) group.is_new = false;
     return is_whole;
   }
 
-  bool repair_stretches(ResultFile& file, InterruptGuard& interrupt) {
+  bool repair_stretches() {
     std::vector<std::vector<Stretch*>> lost;
     if (team_.is_leader()) {
       note_missing_shards();
@@ -599,7 +596,7 @@ class ClusterSweep final : public Sweep {
     const bool has_lost =
         share_flag(std::any_of(lost.begin(), lost.end(), [](const auto& stretches) { return !stretches.empty(); }));
     agree([&] {
-      if (team_.is_leader() && has_lost) keep_mark(file);
+      if (team_.is_leader() && has_lost) keep_mark();
     });
     bool is_whole = true;
     for (std::size_t next = 0; is_whole && !all_of(next == stretches_.size());) {
@@ -608,18 +605,18 @@ class ClusterSweep final : public Sweep {
       std::optional<Error> failure = caught([&] {
         for (; is_whole && next < stretches_.size() && !(has_lost && is_report_due()); next += is_whole ? 1 : 0) {
           const OwnStretch& own = stretches_[next];
-          is_whole = own.group == NOWHERE ? restore_stretch(own.vessel, own.stretch(), file, interrupt)
-                                          : repair_stretch(own.vessel, own.stretch(), file, interrupt);
+          is_whole = own.group == NOWHERE ? sweep_.restore_stretch(own.vessel, own.stretch(), *file_, interrupt_)
+                                          : sweep_.repair_stretch(own.vessel, own.stretch(), *file_, interrupt_);
           if (is_whole && own.group == NOWHERE) ++restored;
         }
       });
-      if (const auto unsynced = caught([&] { file.sync(); })) {
+      if (const auto unsynced = caught([&] { file_->sync(); })) {
         restored = 0;
         if (!failure) failure = unsynced;
       }
       const bool is_moved = move_stretches(lost, restored);
       agree([&] {
-        if (team_.is_leader() && is_moved) keep_mark(file);
+        if (team_.is_leader() && is_moved) keep_mark();
         if (failure) throw *failure;
       });
       is_whole = all_of(is_whole);
@@ -629,11 +626,7 @@ class ClusterSweep final : public Sweep {
 
   // Each rank has restored `restored` more of its lost stretches in its file. Tells the leader whether there are any.
   bool move_stretches(std::vector<std::vector<Stretch*>>& lost, std::uint64_t restored) {
-    std::vector<std::uint64_t> counts{restored};
-    PacketWriter packet;
-    packet.put(restored);
-    team_.gather(packet.bytes(),
-                 [&](int, const std::string& message) { counts.push_back(PacketReader(message).take<std::uint64_t>()); });
+    const std::vector<std::uint64_t> counts = gather_values(team_, restored);
     bool is_moved = false;
     for (std::size_t rank = 0; rank < lost.size(); ++rank) {
       const auto end = lost[rank].begin() + static_cast<std::ptrdiff_t>(counts.at(rank));
@@ -645,35 +638,35 @@ class ClusterSweep final : public Sweep {
   }
 
   // Each rank reads back what it wrote: a single rank would take longer than all ranks take for the grips. False: interrupted.
-  bool read_back(ResultFile& file, InterruptGuard& interrupt) {
+  bool read_back() {
     bool is_whole = true;
     agree([&] {
-      file.drop_cached();
-      for (const OwnStretch& own : written_) is_whole = is_whole && repair_stretch(own.vessel, own.stretch(), file, interrupt);
-      if (is_whole) file.sync();
+      file_->drop_cached();
+      for (const OwnStretch& own : written_)
+        is_whole = is_whole && sweep_.repair_stretch(own.vessel, own.stretch(), *file_, interrupt_);
+      if (is_whole) file_->sync();
     });
     is_whole = all_of(is_whole);
     agree([&] {
-      if (team_.is_leader() && !is_whole) keep_mark(file);
+      if (team_.is_leader() && !is_whole) keep_mark();
     });
-    if (is_whole && groups_.size() == 1) share_checksums(file);
+    if (is_whole && groups_.size() == 1) share_checksums();
     return is_whole;
   }
 
   // Each rank computes the checksums of some blocks of the result, for the same reason, but not of the best grips, which do not exist yet.
-  void share_checksums(const ResultFile& file) {
+  void share_checksums() {
     PacketWriter packet;
     agree([&] {
       if (!team_.is_leader()) return;
-      checksums_ = checksum_parts(names_.partial);
+      checksums_ = checksum_parts(sweep_.names().partial);
       packet.put(checksums_.parts.size());
       for (const ChecksumPart& part : checksums_.parts) {
         packet.put(part.variable);
         packet.put(part.range);
       }
     });
-    const std::string bytes = team_.share(packet.bytes());
-    PacketReader reader(bytes);
+    PacketReader reader(team_.share(packet.bytes()));
     std::vector<ChecksumPart> parts(reader.take<std::size_t>());
     std::vector<std::pair<ChecksumPart*, std::uint64_t>> blocks;
     for (ChecksumPart& part : parts) {
@@ -686,10 +679,9 @@ class ClusterSweep final : public Sweep {
     std::string own;
     agree([&] {
       for (auto k = static_cast<std::size_t>(team_.rank()); k < blocks.size(); k += ranks)
-        own += file.block_checksum(*blocks[k].first, blocks[k].second);
+        own += file_->block_checksum(*blocks[k].first, blocks[k].second);
     });
-    std::vector<std::string> found{own};
-    team_.gather(own, [&](int, const std::string& message) { found.push_back(message); });
+    const std::vector<std::string> found = gather_texts(team_, own);
     if (!team_.is_leader()) return;
     for (std::size_t k = 0; k < blocks.size(); ++k)
       blocks[k].first->blocks.push_back(found[k % ranks].substr(k / ranks * CHECKSUM_LENGTH, CHECKSUM_LENGTH));
@@ -697,18 +689,15 @@ class ClusterSweep final : public Sweep {
   }
 
   bool all_of(bool own) {
-    PacketWriter packet;
-    packet.put(own);
-    team_.gather(packet.bytes(), [&](int, const std::string& message) { own = PacketReader(message).take<bool>() && own; });
-    return share_flag(own);
+    const std::vector<char> all = gather_values<char>(team_, own);
+    return share_flag(std::find(all.begin(), all.end(), 0) == all.end());
   }
 
   // ---- the counter's work ----
 
   // Takes pieces until there are none, or until one was not finished; then nobody gets another. `compute` returns how many grips of a range it has
   // done.
-  void take_pieces(const WorkRange& work, InterruptGuard& interrupt,
-                   const std::function<std::uint64_t(const GripRange&)>& compute) {
+  void take_pieces(const WorkRange& work, const std::function<std::uint64_t(const GripRange&)>& compute) {
     PieceSize size(team_.size(), work.size(), options_.tuning.piece_seconds);
     const double began = monotonic_now();
     std::uint64_t asked = size.next(work.size(), 0);
@@ -725,7 +714,7 @@ class ClusterSweep final : public Sweep {
           grips += done;
           if (done < range.last - range.first) return team_.stop_counter();
         }
-        if (is_asked_to_end(interrupt)) return team_.stop_counter();
+        if (sweep_.is_asked_to_end(interrupt_)) return team_.stop_counter();
         size.done(grips, since(start));
       }
     } catch (...) {
@@ -739,107 +728,99 @@ class ClusterSweep final : public Sweep {
   }
 
   // False: interrupted; the mark has what is done.
-  bool sweep(ResultFile& file, InterruptGuard& interrupt) {
+  bool sweep() {
     std::vector<GripRange> left;
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
       if (mark_.vessels[v].done < plan().grips()) left.push_back({v, mark_.vessels[v].done, plan().grips()});
     const WorkRange work(std::move(left));
     team_.restart_counter();
     last_report_ = monotonic_now();
-    if (team_.is_leader()) progress_.emplace(total(), reported_, "grips", progress_sink(ProgressSink::none));
+    if (team_.is_leader()) progress_.emplace(sweep_.total(), reported_, "grips", progress_sink(ProgressSink::none));
     const std::optional<Error> failure = caught([&] {
-      take_pieces(work, interrupt, [&](const GripRange& range) { return compute(range, file, interrupt); });
-      file.sync();  // of all: passes may read what any rank wrote
+      take_pieces(work, [&](const GripRange& range) { return compute(range); });
+      file_->sync();  // of all: passes may read what any rank wrote
     });
     if (!team_.is_leader()) {
       // what is not on the disk is not reported
-      if (failure && caught([&] { file.sync(); })) pieces_.clear();
+      if (failure && caught([&] { file_->sync(); })) pieces_.clear();
       report_to_leader(true, failure);
     } else {
       if (failure) failure_ = failure;
       while (ended_ + 1 < team_.size()) {
         if (!listen()) Team::nap();
-        if (is_report_due() && !failure_) failure_ = caught([&] { keep_mark(file); });
+        if (is_report_due() && !failure_) failure_ = caught([&] { keep_mark(); });
       }
       progress_->clear();
-      if (done() < total() || failure_ || is_marked_) {
-        const std::optional<Error> unsaved = caught([&] { keep_mark(file); });
+      if (state_.done() < sweep_.total() || failure_ || state_.is_saved()) {
+        const std::optional<Error> unsaved = caught([&] { keep_mark(); });
         if (!failure_) failure_ = unsaved;
       }
       set_best();
     }
     share_error(failure_);
     has_eligible_ = share_flag(has_eligible_);
-    return share_flag(done() == total());
+    return share_flag(state_.done() == sweep_.total());
   }
 
   // Computes a range, with reports in time. Returns how many of its grips are done.
-  std::uint64_t compute(const GripRange& range, ResultFile& file, InterruptGuard& interrupt) {
+  std::uint64_t compute(const GripRange& range) {
     std::uint64_t first = range.first;
     while (first < range.last) {
-      Piece piece{range.vessel, first, first, 0, {}, {}};
-      std::uint64_t delivered = 0;
-      double sink_seconds = 0;
-      std::vector<Candidate> eligible;
-      RunRequest request = grips_of(range.vessel, interrupt);
-      request.first = first;
-      request.last = range.last;
-      request.best = ranks_here() ? 0 : candidates();
-      request.sink = [&](const PlaneChunk& chunk) {
-        const double start = monotonic_now();
-        file.write(chunk);
-        count_grips(chunk, backend_->fields(), gate(range.vessel), piece.counts);
-        if (ranks_here()) {
-          eligible.clear();
-          add_eligible(chunk, backend_->fields(), eligible);
-          offer(range.vessel, eligible);
-          cache_scores(range.vessel, eligible);
-        }
-        if (has_heat_map()) maps_[range.vessel].add(plan(), chunk, backend_->fields());
-        delivered += chunk.count;
-        if (team_.is_leader()) show(delivered);
-        if (is_report_due() || is_time_up() || team_.is_stopped()) interrupt.flag() = true;
-        sink_seconds += since(start);
-      };
-      const double start = monotonic_now();
-      const RunResult result = backend_->run(request);
-      interrupt.clear();
-      if ((delivered != result.done && !(delivered == 0 && variables_.empty())) ||
-          (result.done == 0 && !is_asked_to_end(interrupt) && !team_.is_stopped()))
-        throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, readable_number(delivered),
-                                        readable_number(result.done)));
-      if (delivered == 0) piece.counts.grips += result.done;
-      offer(range.vessel, result.best);
-      count_kernels(result.kernel_seconds, since(start) - sink_seconds);
-      own_.seconds += since(start);
-      own_.grips += result.done;
-      note_as_rank(result.notes);
-      first += result.done;
-      piece.last = first;
-      if (file.has_grips() && result.done > 0) {
-        piece.set_checksum(file.stretch().checksum);
-        file.end_stretch();
-        written_.emplace_back(piece.vessel, piece.first, piece.last, 0, piece.checksum.data());
-      }
-      if (result.done > 0) keep(piece);
+      first = compute_until_due({range.vessel, first, range.last});
       if (is_report_due()) {
         if (team_.is_leader()) {
-          keep_mark(file);
+          keep_mark();
         } else {
-          file.sync();
+          file_->sync();
           report_to_leader(false, std::nullopt);
         }
         last_report_ = monotonic_now();
       }
-      if (is_asked_to_end(interrupt) || team_.is_stopped()) break;  // stopped: another rank has an error, or was interrupted
+      if (is_to_end()) break;
     }
     return first - range.first;
   }
 
-  void count_kernels(double kernels, double waited) {
-    kernel_seconds_ += kernels;
-    wait_seconds_ += waited;
-    (team_.is_leader() ? mark_.kernel_seconds : unreported_kernel_seconds_) += kernels;
+  bool is_to_end() { return sweep_.is_asked_to_end(interrupt_) || team_.is_stopped(); }  // the latter: another rank ends
+
+  // Computes a range until its end, a report or the end of the sweep is due. Returns the first grip that is not done.
+  std::uint64_t compute_until_due(const GripRange& range) {
+    Piece piece{range.vessel, range.first, range.first, 0, {}, {}};
+    std::uint64_t delivered = 0;
+    std::vector<Candidate> eligible;
+    RunRequest request = sweep_.grips_of(range.vessel, range.first, range.last, interrupt_);
+    request.best = sweep_.ranks_here() ? 0 : sweep_.candidates();
+    request.sink = [&](const PlaneChunk& chunk) {
+      file_->write(chunk);
+      count_grips(chunk, sweep_.fields(), sweep_.gate(range.vessel), piece.counts);
+      if (sweep_.ranks_here()) {
+        eligible.clear();
+        add_eligible(chunk, sweep_.fields(), eligible);
+        offer(range.vessel, eligible);
+        cache_scores(range.vessel, eligible);
+      }
+      if (sweep_.has_heat_map()) maps_[range.vessel].add(plan(), chunk, sweep_.fields());
+      delivered += chunk.count;
+      if (team_.is_leader()) show(delivered);
+      if (is_report_due() || sweep_.is_time_up() || team_.is_stopped()) interrupt_.flag() = true;
+    };
+    const double start = monotonic_now();
+    const RunResult result = state_.run(std::move(request));
+    interrupt_.clear();
+    sweep_.check_delivered(result, delivered, is_to_end());
+    if (delivered == 0) piece.counts.grips += result.done;
+    offer(range.vessel, result.best);
+    own_.seconds += since(start);
+    own_.grips += result.done;
+    note_as_rank(result.notes);
+    piece.last += result.done;
+    if (file_->has_grips() && result.done > 0) {
+      piece.set_checksum(file_->stretch().checksum);
+      file_->end_stretch();
+      written_.emplace_back(piece.vessel, piece.first, piece.last, 0, piece.checksum.data());
+    }
+    if (result.done > 0) keep(piece);
+    return piece.last;
   }
 
   void offer(std::size_t vessel, const std::vector<Candidate>& grips) {
@@ -862,13 +843,9 @@ class ClusterSweep final : public Sweep {
     }
   }
 
-  std::string rank_prefix() const override {
-    return team_.size() > 1 ? fmt::format("rank {} on {}: ", team_.rank(), team_.node()) : "";
-  }
-
   void note_as_rank(std::vector<std::string> notes) {
-    for (std::string& line : notes) line = rank_prefix() + line;
-    note_once(notes, progress_ ? &*progress_ : nullptr);
+    for (std::string& line : notes) line = sweep_.who() + line;
+    state_.note_once(notes, progress_ ? &*progress_ : nullptr);
   }
 
   // ---- reports to the leader ----
@@ -905,13 +882,13 @@ class ClusterSweep final : public Sweep {
     put_error(packet, team_, failure);
     packet.put(has_eligible_);
     packet.put(own_);
-    packet.put(std::exchange(unreported_kernel_seconds_, 0));
+    packet.put(std::exchange(mark_.kernel_seconds, 0));
     packet.put(std::exchange(pieces_, {}));
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
       packet.put(fresh_[v]->all());
-      fresh_[v].emplace(plan(), kept_best(), std::vector<Candidate>());
+      fresh_[v].emplace(plan(), sweep_.kept_best(), std::vector<Candidate>());
       std::vector<Cell> cells;
-      for (std::size_t k = 0; has_heat_map() && k < reported_cells_[v].size(); ++k) {
+      for (std::size_t k = 0; sweep_.has_heat_map() && k < reported_cells_[v].size(); ++k) {
         const double now = maps_[v].scores()[k];
         if (std::isnan(now) || now == reported_cells_[v][k]) continue;
         cells.push_back({k, now});
@@ -972,13 +949,13 @@ class ClusterSweep final : public Sweep {
   }
 
   void print_shards() const {
-    if (!has_shards()) return;
+    if (!state_.has_shards()) return;
     std::set<std::string> files;
     for (const VesselProgress& vessel : mark_.vessels)
       for (const Stretch& stretch : vessel.stretches)
-        if (!stretch.shard.empty()) files.insert(shard_path(names_, stretch.shard));
+        if (!stretch.shard.empty()) files.insert(shard_path(sweep_.names(), stretch.shard));
     print(one_line(fmt::format("the other grips lie in {}; once all are in one folder, `wholehand merge {}` makes one file",
-                               joined(files, ", "), names_.result)) +
+                               joined(files, ", "), sweep_.names().result)) +
           "\n");
   }
 
@@ -993,27 +970,27 @@ class ClusterSweep final : public Sweep {
     }
   }
 
-  void keep_mark(ResultFile& file) {
+  void keep_mark() {
     set_best();
-    save(file);
+    state_.save(*file_);
     last_report_ = monotonic_now();
   }
 
   // ---- lists of grips that differ ----
 
-  bool choose(ResultFile& file, InterruptGuard& interrupt) {
+  bool choose() {
     if (options_.shards) share_stretches(true);
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
       VesselProgress& vessel = mark_.vessels[v];
       const bool is_first = share_flag(vessel.lists.empty());
-      ListChooser chooser(plan(), evaluator_.get(), v, list_request(), vessel.lists);
+      ListChooser chooser(plan(), sweep_.evaluator(), v, sweep_.list_request(), vessel.lists);
       if (team_.is_leader() && is_first) chooser.offer(vessel.best);
-      if (is_first) end_pass_together(chooser, vessel);
+      if (is_first) end_pass_together(v, chooser);
       while (!share_flag(chooser.is_complete())) {
-        const bool is_passed = pass(v, chooser, file, interrupt);
-        if (is_passed) end_pass_together(chooser, vessel);
+        const bool is_passed = pass(v, chooser);
+        if (is_passed) end_pass_together(v, chooser);
         agree([&] {
-          if (team_.is_leader() && (!is_passed || is_report_due())) keep_mark(file);
+          if (team_.is_leader() && (!is_passed || is_report_due())) keep_mark();
         });
         if (!is_passed) return false;
       }
@@ -1023,7 +1000,7 @@ class ClusterSweep final : public Sweep {
   }
 
   // The leader decides, and all ranks find the hands that it requests.
-  void end_pass_together(ListChooser& chooser, VesselProgress& vessel) {
+  void end_pass_together(std::size_t v, ListChooser& chooser) {
     const auto ranks = static_cast<std::size_t>(team_.size()), rank = static_cast<std::size_t>(team_.rank());
     const auto own_part = [&](const std::vector<Candidate>& grips, std::size_t of) {
       std::vector<Candidate> part;
@@ -1032,8 +1009,7 @@ class ClusterSweep final : public Sweep {
     };
     if (!team_.is_leader()) {
       for (;;) {
-        const std::string bytes = team_.share("");
-        const auto grips = PacketReader(bytes).take_all<Candidate>();
+        const auto grips = PacketReader(team_.share("")).take_all<Candidate>();
         if (grips.empty()) return;
         std::vector<FoundHand> found;
         for (const auto& hand : chooser.hands_of(own_part(grips, rank)))
@@ -1048,14 +1024,13 @@ class ClusterSweep final : public Sweep {
       packet.put(grips);
       team_.share(packet.bytes());
     };
-    choose_from_pass(chooser, vessel, [&](const std::vector<Candidate>& grips) {
+    state_.end_pass(v, chooser, [&](const std::vector<Candidate>& grips) {
       ask(grips);
       ListChooser::Hands hands(grips.size());
       const ListChooser::Hands own = chooser.hands_of(own_part(grips, 0));
       for (std::size_t k = 0; k < own.size(); ++k) hands[k * ranks] = own[k];
       for (std::size_t other = 1; other < ranks; ++other) {
-        const std::string message = team_.wait_for(static_cast<int>(other));
-        const auto found = PacketReader(message).take_all<FoundHand>();
+        const auto found = PacketReader(team_.wait_for(static_cast<int>(other))).take_all<FoundHand>();
         for (std::size_t k = 0; k < found.size(); ++k)
           if (found[k].is_there) hands.at(k * ranks + other) = found[k].hand;
       }
@@ -1066,26 +1041,25 @@ class ClusterSweep final : public Sweep {
 
   // All grips of a vessel once more, by all ranks: from memory, else from the file, else recomputed. The file matters to a sweep of several sessions,
   // each shorter than the grips take. False: interrupted.
-  bool pass(std::size_t v, ListChooser& leaders, const ResultFile& file, InterruptGuard& interrupt) {
+  bool pass(std::size_t v, ListChooser& leaders) {
     std::vector<ListProgress> lists(plan().hand_scales());
     PacketWriter packet;
     if (team_.is_leader())
       for (const ListProgress& list : leaders.progress()) put(packet, list);
-    const std::string bytes = team_.share(packet.bytes());
-    PacketReader reader(bytes);
+    PacketReader reader(team_.share(packet.bytes()));
     for (ListProgress& list : lists) list = take_list(reader);
-    ListChooser own(plan(), evaluator_.get(), v, list_request(), lists);
+    ListChooser own(plan(), sweep_.evaluator(), v, sweep_.list_request(), lists);
     std::uint64_t delivered = 0;
     if (!has_eligible_) team_.restart_counter();
     agree([&] {
       if (has_eligible_) {
         own.offer(eligible_[v]);
-      } else if (options_.shards && file.has_eligible()) {
+      } else if (options_.shards && file_->has_eligible()) {
         for (const OwnStretch& stretch : stretches_)
-          if (stretch.vessel == v) delivered += read_range({v, stretch.first, stretch.last}, own, file);
+          if (stretch.vessel == v) delivered += read_range({v, stretch.first, stretch.last}, own);
       } else {
-        take_pieces(WorkRange({{v, 0, plan().grips()}}), interrupt, [&](const GripRange& range) {
-          const std::uint64_t done = file.has_eligible() ? read_range(range, own, file) : pass_range(range, own, interrupt);
+        take_pieces(WorkRange({{v, 0, plan().grips()}}), [&](const GripRange& range) {
+          const std::uint64_t done = file_->has_eligible() ? read_range(range, own) : pass_range(range, own);
           delivered += done;
           return done;
         });
@@ -1100,30 +1074,26 @@ class ClusterSweep final : public Sweep {
       delivered += grips.take<std::uint64_t>();
       leaders.add_open(grips.take_all<Candidate>());
     });
-    return share_flag((has_eligible_ && !is_asked_to_end(interrupt)) || delivered == plan().grips());
+    return share_flag((has_eligible_ && !sweep_.is_asked_to_end(interrupt_)) || delivered == plan().grips());
   }
 
-  static std::uint64_t read_range(const GripRange& range, ListChooser& own, const ResultFile& file) {
+  std::uint64_t read_range(const GripRange& range, ListChooser& own) const {
     constexpr std::uint64_t AT_ONCE = 1 << 18;  // grips: memory does not grow with the sweep
     for (std::uint64_t first = range.first; first < range.last; first += AT_ONCE)
-      own.offer(file.eligible(range.vessel, first, std::min(range.last, first + AT_ONCE)));
+      own.offer(file_->eligible(range.vessel, first, std::min(range.last, first + AT_ONCE)));
     return range.last - range.first;
   }
 
-  std::uint64_t pass_range(const GripRange& range, ListChooser& own, InterruptGuard& interrupt) {
-    RunRequest request = grips_of(range.vessel, interrupt);
-    request.first = range.first;
-    request.last = range.last;
+  std::uint64_t pass_range(const GripRange& range, ListChooser& own) {
+    RunRequest request = sweep_.grips_of(range.vessel, range.first, range.last, interrupt_);
     std::vector<Candidate> eligible;
     request.sink = [&](const PlaneChunk& chunk) {
       eligible.clear();
-      add_eligible(chunk, backend_->fields(), eligible);
+      add_eligible(chunk, sweep_.fields(), eligible);
       own.offer(eligible);
-      if (is_time_up() || team_.is_stopped()) interrupt.flag() = true;
+      if (sweep_.is_time_up() || team_.is_stopped()) interrupt_.flag() = true;
     };
-    const double start = monotonic_now();
-    const RunResult result = backend_->run(request);
-    count_kernels(result.kernel_seconds, since(start));
+    const RunResult result = state_.run(std::move(request));
     note_as_rank(result.notes);
     return result.done;
   }
@@ -1132,16 +1102,32 @@ class ClusterSweep final : public Sweep {
 
   int rank_of(std::size_t list) const { return static_cast<int>(list % static_cast<std::size_t>(team_.size())); }
 
+  // False: interrupted.
+  bool complete_together() {
+    BestLists best(scene_.vessels.size() * plan().hand_scales());
+    agree([&] {
+      if (team_.is_leader()) best = find_best(sweep_, state_);
+    });
+    const bool is_completed = choose_best_together(best);
+    agree([&] {
+      if (!team_.is_leader()) return;
+      if (!is_completed) return state_.save(*file_);
+      publish(sweep_, state_, *file_, std::move(best), std::move(checksums_));
+      print_ranks();
+      print_shards();
+    });
+    return is_completed;
+  }
+
   // Each rank chooses, refines and scores the grips of some of the lists. False: interrupted.
-  bool complete_together(BestLists& best, InterruptGuard& interrupt) {
+  bool choose_best_together(BestLists& best) {
     PacketWriter packet;
     for (const auto& list : best) {
       std::vector<Candidate> grips;
       for (const BestGrip& grip : list) grips.push_back(grip.candidate);
       packet.put(grips);
     }
-    const std::string bytes = team_.share(packet.bytes());
-    PacketReader reader(bytes);
+    PacketReader reader(team_.share(packet.bytes()));
     BestLists own(best.size());
     for (std::size_t list = 0; list < best.size(); ++list) {
       const auto grips = reader.take_all<Candidate>();
@@ -1149,7 +1135,7 @@ class ClusterSweep final : public Sweep {
       for (const Candidate& candidate : grips) own[list].push_back(bare_grip(plan(), list / plan().hand_scales(), candidate));
     }
     bool is_whole = true;
-    agree([&] { is_whole = choose_best(own, interrupt); });
+    agree([&] { is_whole = choose_best(sweep_, own, interrupt_); });
     for (std::size_t list = 0; list < own.size(); ++list) {
       const int rank = rank_of(list);
       if (team_.is_leader()) {
@@ -1170,6 +1156,17 @@ class ClusterSweep final : public Sweep {
 
   Team& team_;
   InterruptGuard& interrupt_;
+  const Scene& scene_;
+  const SweepOptions& options_;
+  Sweep sweep_;
+  SweepState state_{sweep_};
+  SweepMark& mark_ = state_.mark();  // the leader's is saved
+  std::vector<HeatMap>& maps_ = state_.maps();
+  std::optional<OutputLock> lock_, shard_lock_;
+  std::optional<ResultContents> contents_;
+  OutputNames own_names_;  // the partial file is a shard in the groups that write one
+  std::unique_ptr<ResultFile> file_;
+  ChecksumParts checksums_;                       // of the result, as far as ranks have found some
   std::vector<std::string> devices_;              // of all ranks; the leader knows them
   std::vector<OwnStretch> stretches_;             // that are there, and that this rank looks after
   bool has_stretches_ = false;                    // any rank
@@ -1181,7 +1178,6 @@ class ClusterSweep final : public Sweep {
   std::vector<std::vector<double>> reported_cells_;  // cells of the heat maps that the leader knows
   std::vector<Piece> pieces_;                        // since the last report
   std::vector<OwnStretch> written_;                  // by this rank
-  double unreported_kernel_seconds_ = 0;
   std::vector<Group> groups_;
   std::vector<std::size_t> group_of_;  // of each rank
   std::string shard_id_;               // of the sweep; empty where all write into one file
@@ -1197,6 +1193,15 @@ class ClusterSweep final : public Sweep {
   std::optional<Progress> progress_;
 };
 
+ExitCode run_on(const BackendChoice& choice, Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts,
+                InterruptGuard& interrupt) {
+  return or_abort(team, [&] {
+    std::optional<ClusterSweep> sweep;
+    agree(team, caught([&] { sweep.emplace(team, scene, options, choice, parts, interrupt); }));
+    return sweep->run();
+  });
+}
+
 }  // namespace
 
 void leave_cluster_sweep(Team& team, const Error& error) {
@@ -1209,39 +1214,36 @@ void leave_cluster_sweep(Team& team, const Error& error) {
 
 ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts,
                            InterruptGuard& interrupt) {
-  return or_abort(team, [&] {
-    std::optional<ClusterSweep> sweep;
-    agree(team,
-          caught([&] { sweep.emplace(team, scene, options, named_backend(options.on, options.precision), parts, interrupt); }));
-    return sweep->run();
-  });
+  return run_on(named_backend(options.on, options.precision), team, scene, options, parts, interrupt);
 }
 
 ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options,
                            InterruptGuard& interrupt) {
   Scene scene;
-  SweepOptions own = options;
+  BackendChoice chosen;
   or_abort(team, [&] {
     agree(team, caught([&] {
             scene = read_scene();
-            own.on = own_device(team, options.on);
+            chosen = named_backend(own_device(team, options.on), options.precision);
           }));
     return ExitCode::done;
   });
+  SweepOptions own = options;
   if (own.threads == 0) own.threads = team.own_processors();  // on a device, of what the core does besides
-  const SweepParts parts{
-      [&](const BackendChoice& choice, const FieldSet& fields) {
-        return open_backend(scene, fields, choice.on, choice.precision, own.threads);
-      },
-      [&] { return make_core_evaluator(scene); },
-      [&](const BackendChoice& choice) {
-        load_meshes(scene, [&] { return largest_buffer(choice.on); });
-        return choice;
-      },
-      [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, "core", Precision::full, own.threads); },
-      Team::open_output,
+  SweepParts parts;
+  parts.open_backend = [&](const BackendChoice& choice, const FieldSet& fields) {
+    return open_backend(scene, fields, choice.on, choice.precision, own.threads);
   };
-  return run_cluster_sweep(team, scene, own, parts, interrupt);
+  parts.open_evaluator = [&] { return make_core_evaluator(scene); };
+  parts.prepare = [&](const BackendChoice& choice) {
+    load_meshes(scene, [&] { return largest_buffer(choice.on); });
+    return choice;
+  };
+  parts.open_core = [&](const Scene& other, const FieldSet& fields) {
+    return open_backend(other, fields, "core", Precision::full, own.threads);
+  };
+  parts.open_output = Team::open_output;
+  return run_on(chosen, team, scene, own, parts, interrupt);
 }
 
 }  // namespace wholehand

@@ -9,7 +9,6 @@
 #include "core/scene.h"
 #include "sweeps/cluster/team.h"
 #include "sweeps/run/sweep_options.h"
-#include "sweeps/run/sweep_parts.h"
 
 namespace wholehand {
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace wholehand {
@@ -37,8 +37,7 @@ class PacketWriter {
 // Takes values in the order in which they were put. Throws std::runtime_error if the packet ends too early.
 class PacketReader {
  public:
-  // `bytes` must outlive the object.
-  explicit PacketReader(const std::string& bytes) : bytes_(bytes) {}
+  explicit PacketReader(std::string bytes) : bytes_(std::move(bytes)) {}
 
   template <class T>
   T take() {
@@ -67,11 +66,11 @@ class PacketReader {
   }
   void copy(void* to, std::size_t size) {
     if (size > bytes_.size() - place_) throw std::runtime_error("a message between ranks ends too early");
-    if (size > 0) std::memcpy(to, bytes_.data() + place_, size);
+    bytes_.copy(static_cast<char*>(to), size, place_);
     place_ += size;
   }
 
-  const std::string& bytes_;
+  std::string bytes_;
   std::size_t place_ = 0;
 };
 

@@ -453,13 +453,6 @@ std::unique_ptr<CoreBackend> open_for_missing(const SweepResult& result, const S
   return core;
 }
 
-// Sets all reported figures of the grips of a list: from the file, or from the core if it is not null.
-void set_figures(const SweepResult& result, const Scene& scene, std::size_t vessel, Scores& scores, CoreBackend* core,
-                 std::vector<BestGrip>& grips) {
-  for (BestGrip& grip : grips) scores.read(vessel, grip.candidate.index, 1, &grip.candidate.score);
-  core ? evaluate_best(*core, scene, vessel, grips) : read_rows(result, scene, vessel, grips);
-}
-
 }  // namespace
 
 bool none_holds(const Ranking& ranking, std::size_t list) {
@@ -594,7 +587,9 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
   if (is_robust) rank_held_by_robust(scene, plan, scores.weights(), request.best, ranking);
   for (std::size_t list = 0; list < lists; ++list) {
     std::vector<BestGrip>& grips = ranking.lists[list];
-    set_figures(result, scene, list / plan.hand_scales(), scores, core.get(), grips);
+    const std::size_t vessel = list / plan.hand_scales();
+    for (BestGrip& grip : grips) scores.read(vessel, grip.candidate.index, 1, &grip.candidate.score);
+    core ? evaluate_best(*core, scene, vessel, grips) : read_rows(result, scene, vessel, grips);
     for (std::size_t i = 0; i < grips.size(); ++i) {
       grips[i].score = none_holds(ranking, list) ? 0 : grips[i].candidate.score;
       grips[i].rank = i + 1;

@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "base/numbers/parallel.h"
+#include "base/system/output.h"
 #include "base/text/error.h"
 #include "base/text/readable.h"
 #include "core/planes.h"
@@ -135,7 +136,7 @@ BackendChoice choose_backend(const Scene& scene, const SweepOptions& options) {
   }
 }
 
-BackendChoice with_core_fallback(const BackendChoice& choice, const std::function<void(const std::string&)>& note,
+BackendChoice with_core_fallback(const BackendChoice& choice, const SweepHooks& hooks,
                                  const std::function<void(const BackendChoice&)>& work) {
   std::string why;
   try {
@@ -147,7 +148,8 @@ BackendChoice with_core_fallback(const BackendChoice& choice, const std::functio
   }
   const BackendChoice core{"core", *choice.fallback_precision};
   work(core);
-  note("on core, since the device does not work: " + why);
+  const std::string line = "on core, since the device does not work: " + why;
+  hooks.note ? hooks.note(line) : print_note(line);
   return core;
 }
 

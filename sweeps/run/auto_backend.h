@@ -36,14 +36,6 @@ double cpu_driver_seconds(const Workload& work, int threads, Precision precision
 // Whether the core needs a second or more, about the time that opening a device takes.
 bool pays_for_device(const Workload& work, int threads);
 
-// Where a sweep computes. It is chosen once, before the sweep begins.
-struct BackendChoice {
-  std::string on = "core";  // see open_backend
-  Precision precision = Precision::full;
-  std::string alternative = {};                      // the other's time or what it lacks; completes the sentence of backend_line
-  std::optional<Precision> fallback_precision = {};  // of the core, in place of a device that fails; absent: the choice stands
-};
-
 // `on` as the user names it. An absent precision is double on the core, float elsewhere.
 BackendChoice named_backend(const std::string& on, const std::optional<Precision>& precision);
 
@@ -58,9 +50,9 @@ BackendChoice choose_backend(const Workload& work, int threads, const std::optio
 // refuses invalid scenes.
 BackendChoice choose_backend(const Scene& scene, const SweepOptions& options);
 
-// Does `work` where the choice says, and returns the choice. If the program itself chose a device and that fails, does it on the core, and `note`
-// takes a line that says so. If the core fails too, the device was not the cause, and only the core's error is reported.
-BackendChoice with_core_fallback(const BackendChoice& choice, const std::function<void(const std::string&)>& note,
+// Does `work` where the choice says, and returns the choice. If the program itself chose a device and that fails, does it on the core, and a
+// note says so. If the core fails too, the device was not the cause, and only the core's error is reported.
+BackendChoice with_core_fallback(const BackendChoice& choice, const SweepHooks& hooks,
                                  const std::function<void(const BackendChoice&)>& work);
 
 }  // namespace wholehand

@@ -4,7 +4,6 @@
 
 #include "base/text/error.h"
 #include "sweeps/run/sweep_options.h"
-#include "sweeps/run/sweep_parts.h"
 
 namespace wholehand {
 

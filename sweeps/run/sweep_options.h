@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Options of a sweep, besides its scene.
+// What a sweep gets besides its scene: options, and the parts with which it computes.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "base/system/clock.h"
 #include "core/backend.h"
+#include "core/evaluator.h"
 #include "core/scene.h"
 #include "sweeps/lists/best.h"
+#include "sweeps/result/output_bytes.h"
 
 namespace wholehand {
 
@@ -52,6 +55,26 @@ struct SweepOptions {
   std::optional<std::string> shards = {};
   SweepHooks hooks = {};
   SweepTuning tuning = {};
+};
+
+// Where a sweep computes. It is chosen once, before the sweep begins (sweeps/run/auto_backend.h).
+struct BackendChoice {
+  std::string on = "core";  // see open_backend
+  Precision precision = Precision::full;
+  std::string alternative = {};  // the time of the other backend, or what it lacks; completes the sentence of backend_line
+  std::optional<Precision> fallback_precision = {};  // of the core, in place of a device that fails; absent: the choice stands
+};
+
+// What a sweep gets from elsewhere. Tests supply their own.
+struct SweepParts {
+  std::function<std::unique_ptr<Backend>(const BackendChoice&, const FieldSet&)> open_backend;
+  std::function<std::unique_ptr<Evaluator>()> open_evaluator;  // for vessel facts that no grip changes
+  // Slow work after all checks that can be made at once (meshes); may be empty. Answers where the sweep goes on, as with_core_fallback does.
+  std::function<BackendChoice(const BackendChoice&)> prepare = {};
+  // Opens the core for the sweep's scene, or for one that differs from it only in its friction. It evaluates listed grips and their deviations, so
+  // that lists are the same on every device.
+  std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)> open_core = {};
+  OpenOutput open_output = {};  // writes the values; empty: the system's own calls
 };
 
 }  // namespace wholehand

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/scene.h"
-#include "sweeps/run/sweep_parts.h"
+#include "sweeps/run/sweep_options.h"
 
 namespace wholehand::scale {
 

@@ -42,7 +42,7 @@ struct SweepTrial {
   }
 
   ExitCode run_bare() {
-    const SweepParts parts{[this](const BackendChoice&, const FieldSet& fields) -> std::unique_ptr<Backend> {
+    const SweepParts parts{.open_backend = [this](const BackendChoice&, const FieldSet& fields) -> std::unique_ptr<Backend> {
                              auto backend = std::make_unique<FakeBackend>(scene, fields, precision, chunk);
                              backend->before_run = before_run;
                              backend->before_chunk = before_chunk;
@@ -50,9 +50,8 @@ struct SweepTrial {
                              ++opened;
                              return backend;
                            },
-                           [this] { return std::make_unique<FakeEvaluator>(scene); },
-                           {},
-                           [this](const Scene& other, const FieldSet& fields) -> std::unique_ptr<Backend> {
+                           .open_evaluator = [this] { return std::make_unique<FakeEvaluator>(scene); },
+                           .open_core = [this](const Scene& other, const FieldSet& fields) -> std::unique_ptr<Backend> {
                              auto backend = std::make_unique<FakeBackend>(other, fields, precision, chunk);
                              backend->before_chunk = before_other;
                              return backend;

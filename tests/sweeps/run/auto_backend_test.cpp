@@ -160,7 +160,7 @@ TEST_F(AutoBackendTest, WhatIsAskedForByNameIsTaken) {
   const BackendChoice choice = choose_backend(large_scene(), options_);
   EXPECT_EQ(choice.on, "core");
   EXPECT_EQ(choice.alternative, "");
-  EXPECT_THROW(with_core_fallback(choice, options_.hooks.note, [](const BackendChoice&) { throw failure_error("gone"); }), Error);
+  EXPECT_THROW(with_core_fallback(choice, options_.hooks, [](const BackendChoice&) { throw failure_error("gone"); }), Error);
 }
 
 TEST_F(AutoBackendTest, WithoutAnyDeviceTheCoreIsTakenAndTheReasonSaid) {
@@ -187,10 +187,10 @@ TEST_F(AutoBackendTest, WhatTheCoreRefusesTooIsNoFaultOfTheDevice) {
   const BackendChoice device = choose_backend(large_scene(), options_);
   ASSERT_EQ(device.on, "vulkan");
   const auto refuse = [](const BackendChoice& choice) { throw usage_error(choice.on + " refuses it"); };
-  EXPECT_EQ(refusal_line([&] { with_core_fallback(device, options_.hooks.note, refuse); }), "core refuses it");
+  EXPECT_EQ(refusal_line([&] { with_core_fallback(device, options_.hooks, refuse); }), "core refuses it");
   EXPECT_EQ(notes_, "");
 
-  const BackendChoice core = with_core_fallback(device, options_.hooks.note, [](const BackendChoice& choice) {
+  const BackendChoice core = with_core_fallback(device, options_.hooks, [](const BackendChoice& choice) {
     if (choice.on != "core") throw usage_error("it is too large");
   });
   EXPECT_EQ(core.on, "core");

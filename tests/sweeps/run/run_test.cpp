@@ -213,8 +213,9 @@ TEST_F(RunTest, BackendThatDeliversNothingIsAFailure) {
   const Scene scene = fake_scene();
   const SweepOptions options{.output = folder / "a.nc"};
   const SweepParts parts{
-      [&](const BackendChoice&, const FieldSet& fields) { return std::make_unique<Silent>(scene, fields, Precision::full, 10); },
-      [&] { return std::make_unique<FakeEvaluator>(scene); }};
+      .open_backend = [&](const BackendChoice&,
+                          const FieldSet& fields) { return std::make_unique<Silent>(scene, fields, Precision::full, 10); },
+      .open_evaluator = [&] { return std::make_unique<FakeEvaluator>(scene); }};
   testing::internal::CaptureStdout();
   EXPECT_THROW(run_sweep(scene, options, parts), Error);
   testing::internal::GetCapturedStdout();
@@ -227,10 +228,9 @@ TEST_F(RunTest, CoreOnThreadsGivesTheSameFile) {
   const auto open = [&](const FieldSet& fields) {
     return std::make_unique<CoreBackend>(std::make_unique<FakeEvaluator>(scene), scene, fields, Precision::full, 3);
   };
-  const SweepParts parts{[&](const BackendChoice&, const FieldSet& fields) { return open(fields); },
-                         [&] { return std::make_unique<FakeEvaluator>(scene); },
-                         {},
-                         [&](const Scene&, const FieldSet& fields) { return open(fields); }};
+  const SweepParts parts{.open_backend = [&](const BackendChoice&, const FieldSet& fields) { return open(fields); },
+                         .open_evaluator = [&] { return std::make_unique<FakeEvaluator>(scene); },
+                         .open_core = [&](const Scene&, const FieldSet& fields) { return open(fields); }};
   testing::internal::CaptureStdout();
   EXPECT_EQ(run_sweep(scene, options, parts), ExitCode::done);
   testing::internal::GetCapturedStdout();
@@ -246,10 +246,9 @@ TEST_F(RunTest, WhereNotesAreAskedForNothingIsPrinted) {
   scene.robust.emplace().azimuth = 0.1;  // about bodies of revolution it changes nothing, which is a note
   scene.output.best = 0;
   const auto open = [&](const FieldSet& fields) { return std::make_unique<FakeBackend>(scene, fields, Precision::full, 10); };
-  const SweepParts parts{[&](const BackendChoice&, const FieldSet& fields) { return open(fields); },
-                         [&] { return std::make_unique<FakeEvaluator>(scene); },
-                         {},
-                         [&](const Scene&, const FieldSet& fields) { return open(fields); }};
+  const SweepParts parts{.open_backend = [&](const BackendChoice&, const FieldSet& fields) { return open(fields); },
+                         .open_evaluator = [&] { return std::make_unique<FakeEvaluator>(scene); },
+                         .open_core = [&](const Scene&, const FieldSet& fields) { return open(fields); }};
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   EXPECT_EQ(run_sweep(scene, options, parts), ExitCode::done);
