@@ -22,7 +22,7 @@ Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading,
     const Real clear = support.distance - radius;
     if (std::abs(clear) < vessel.limits.stop_tolerance) {
       trace.reason = REASON_NONE;
-      trace.normal = vessel.is_lattice ? lattice_gradient(vessel, place) : support.normal;
+      trace.normal = vessel.is_lattice ? lattice_gradient(vessel.lattice, place) : support.normal;
       trace.element = support.element;
       return trace;
     }

@@ -63,7 +63,7 @@ Real place_step(Support support, Real separation, const Place& place, FingerFram
 // to leave again within the margin, rounding does not decide.
 bool passes_close(const Vessel& vessel, const Support& support, Real separation, const Place& place, const FingerFrame& frame) {
   Vec3 wall = support.normal;  // steps on a lattice need none, and it has none
-  if (vessel.is_lattice && std::abs(separation) <= Real(CONTACT_MARGIN)) wall = lattice_gradient(vessel, place.ball.place);
+  if (vessel.is_lattice && std::abs(separation) <= Real(CONTACT_MARGIN)) wall = lattice_gradient(vessel.lattice, place.ball.place);
   const Vec2 normal(glm::dot(wall, frame.forward), glm::dot(wall, frame.palmward));
   const Real closing = glm::dot(normal, place.velocity), leaving = glm::dot(normal, place.acceleration);
   const Real across = glm::dot(place.velocity, place.velocity) - closing * closing;

@@ -141,8 +141,7 @@ Vec2 profile_gradient(const Vessel& vessel, Vec2 q, int& element) {
   return outward * (Real(1) / std::sqrt(glm::dot(outward, outward)));
 }
 
-Cell locate_cell(const Vessel& vessel, Vec3 p) {
-  const Lattice& lattice = vessel.lattice;
+Cell locate_cell(const Lattice& lattice, Vec3 p) {
   const Vec3 counts(Real(lattice.nx - 1), Real(lattice.ny - 1), Real(lattice.nz - 1));
   const Vec3 clamped = glm::min(glm::max(p, lattice.origin), lattice.origin + counts * lattice.spacing);
   const Vec3 steps = glm::min(glm::max((clamped - lattice.origin) / lattice.spacing, Vec3(0)), counts);
@@ -155,8 +154,7 @@ Cell locate_cell(const Vessel& vessel, Vec3 p) {
   return cell;
 }
 
-Real lattice_sample(const Vessel& vessel, int i, int j, int k) {
-  const Lattice& lattice = vessel.lattice;
+Real lattice_sample(const Lattice& lattice, int i, int j, int k) {
   const std::size_t at = (static_cast<std::size_t>(k) * lattice.ny + j) * lattice.nx + i;
   if (!lattice.halves) return Real(std::bit_cast<float>((*lattice.words)[at]));
   return Real(wholehand::half_value(wholehand::half_at(*lattice.words, at))) * Real(HALF_UNIT);
@@ -171,35 +169,35 @@ Real distance_beyond(Real value, Vec3 outside) {
   return squared > 0 ? std::sqrt(held * held + squared) : value;
 }
 
-Real lattice_distance(const Vessel& vessel, Vec3 p) {
-  const Cell cell = locate_cell(vessel, p);
+Real lattice_distance(const Lattice& lattice, Vec3 p) {
+  const Cell cell = locate_cell(lattice, p);
   const Vec3 f = cell.fraction;
   const Real c00 =
-      mix_reals(lattice_sample(vessel, cell.i, cell.j, cell.k), lattice_sample(vessel, cell.i + 1, cell.j, cell.k), f.x);
+      mix_reals(lattice_sample(lattice, cell.i, cell.j, cell.k), lattice_sample(lattice, cell.i + 1, cell.j, cell.k), f.x);
   const Real c10 =
-      mix_reals(lattice_sample(vessel, cell.i, cell.j + 1, cell.k), lattice_sample(vessel, cell.i + 1, cell.j + 1, cell.k), f.x);
+      mix_reals(lattice_sample(lattice, cell.i, cell.j + 1, cell.k), lattice_sample(lattice, cell.i + 1, cell.j + 1, cell.k), f.x);
   const Real c01 =
-      mix_reals(lattice_sample(vessel, cell.i, cell.j, cell.k + 1), lattice_sample(vessel, cell.i + 1, cell.j, cell.k + 1), f.x);
-  const Real c11 = mix_reals(lattice_sample(vessel, cell.i, cell.j + 1, cell.k + 1),
-                             lattice_sample(vessel, cell.i + 1, cell.j + 1, cell.k + 1), f.x);
+      mix_reals(lattice_sample(lattice, cell.i, cell.j, cell.k + 1), lattice_sample(lattice, cell.i + 1, cell.j, cell.k + 1), f.x);
+  const Real c11 = mix_reals(lattice_sample(lattice, cell.i, cell.j + 1, cell.k + 1),
+                             lattice_sample(lattice, cell.i + 1, cell.j + 1, cell.k + 1), f.x);
   return distance_beyond(mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z), cell.outside);
 }
 
 // The derivative of the trilinear value where the point is not clamped; off the box that of distance_beyond; normalized.
-Vec3 lattice_gradient(const Vessel& vessel, Vec3 p) {
-  const Cell cell = locate_cell(vessel, p);
+Vec3 lattice_gradient(const Lattice& lattice, Vec3 p) {
+  const Cell cell = locate_cell(lattice, p);
   const Vec3 f = cell.fraction;
-  const Real s000 = lattice_sample(vessel, cell.i, cell.j, cell.k), s100 = lattice_sample(vessel, cell.i + 1, cell.j, cell.k);
-  const Real s010 = lattice_sample(vessel, cell.i, cell.j + 1, cell.k),
-             s110 = lattice_sample(vessel, cell.i + 1, cell.j + 1, cell.k);
-  const Real s001 = lattice_sample(vessel, cell.i, cell.j, cell.k + 1),
-             s101 = lattice_sample(vessel, cell.i + 1, cell.j, cell.k + 1);
-  const Real s011 = lattice_sample(vessel, cell.i, cell.j + 1, cell.k + 1),
-             s111 = lattice_sample(vessel, cell.i + 1, cell.j + 1, cell.k + 1);
+  const Real s000 = lattice_sample(lattice, cell.i, cell.j, cell.k), s100 = lattice_sample(lattice, cell.i + 1, cell.j, cell.k);
+  const Real s010 = lattice_sample(lattice, cell.i, cell.j + 1, cell.k),
+             s110 = lattice_sample(lattice, cell.i + 1, cell.j + 1, cell.k);
+  const Real s001 = lattice_sample(lattice, cell.i, cell.j, cell.k + 1),
+             s101 = lattice_sample(lattice, cell.i + 1, cell.j, cell.k + 1);
+  const Real s011 = lattice_sample(lattice, cell.i, cell.j + 1, cell.k + 1),
+             s111 = lattice_sample(lattice, cell.i + 1, cell.j + 1, cell.k + 1);
   Vec3 slope(mix_reals(mix_reals(s100 - s000, s110 - s010, f.y), mix_reals(s101 - s001, s111 - s011, f.y), f.z),
              mix_reals(mix_reals(s010 - s000, s110 - s100, f.x), mix_reals(s011 - s001, s111 - s101, f.x), f.z),
              mix_reals(mix_reals(s001 - s000, s101 - s100, f.x), mix_reals(s011 - s010, s111 - s110, f.x), f.y));
-  slope /= vessel.lattice.spacing;
+  slope /= lattice.spacing;
   if (cell.outside.x != 0) slope.x = 0;
   if (cell.outside.y != 0) slope.y = 0;
   if (cell.outside.z != 0) slope.z = 0;
@@ -213,14 +211,14 @@ Vec3 lattice_gradient(const Vessel& vessel, Vec3 p) {
 }
 
 Real signed_distance(const Vessel& vessel, Vec3 p) {
-  if (vessel.is_lattice) return lattice_distance(vessel, p);
+  if (vessel.is_lattice) return lattice_distance(vessel.lattice, p);
   return profile_distance(vessel, Vec2(std::sqrt(p.x * p.x + p.z * p.z), p.y));
 }
 
 Vec3 distance_gradient(const Vessel& vessel, Vec3 p, int& element) {
   if (vessel.is_lattice) {
     element = -1;
-    return lattice_gradient(vessel, p);
+    return lattice_gradient(vessel.lattice, p);
   }
   const Real r = std::sqrt(p.x * p.x + p.z * p.z);
   const Vec2 gradient = profile_gradient(vessel, Vec2(r, p.y), element);
@@ -234,7 +232,7 @@ Vec3 distance_gradient(const Vessel& vessel, Vec3 p, int& element) {
 Support support_at(const Vessel& vessel, Vec3 p) {
   Support support;
   if (vessel.is_lattice) {
-    support.distance = lattice_distance(vessel, p);
+    support.distance = lattice_distance(vessel.lattice, p);
     support.other = support.distance;
     return support;
   }

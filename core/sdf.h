@@ -106,16 +106,16 @@ Nearest nearest_element(const Vessel& vessel, Vec2 q, bool& inside);
 Real profile_distance(const Vessel& vessel, Vec2 q);
 Vec2 profile_gradient(const Vessel& vessel, Vec2 q, int& element);
 // The cell of p, a value of the lattice, and the value at t in [0, 1] between two.
-Cell locate_cell(const Vessel& vessel, Vec3 p);
-Real lattice_sample(const Vessel& vessel, int i, int j, int k);
+Cell locate_cell(const Lattice& lattice, Vec3 p);
+Real lattice_sample(const Lattice& lattice, int i, int j, int k);
 Real mix_reals(Real a, Real b, Real t);
 // A lower bound of the distance from a point off the box, m, from the value at the box's nearest point and the way from there: a step along a ray
 // therefore never passes what the box holds. `value` itself if the way is zero.
 Real distance_beyond(Real value, Vec3 outside);
 // Trilinear value of the lattice; off the box, distance_beyond of the clamped point.
-Real lattice_distance(const Vessel& vessel, Vec3 p);
+Real lattice_distance(const Lattice& lattice, Vec3 p);
 // Unit gradient of lattice_distance; +x if it vanishes.
-Vec3 lattice_gradient(const Vessel& vessel, Vec3 p);
+Vec3 lattice_gradient(const Lattice& lattice, Vec3 p);
 // Signed distance to the vessel at p, m: exact for an outline. Never NaN for finite p.
 Real signed_distance(const Vessel& vessel, Vec3 p);
 // Unit gradient towards increasing distance; `element` is the nearest element's index (-1 for a lattice). On the axis it is the radial direction +x.

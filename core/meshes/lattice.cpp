@@ -272,13 +272,6 @@ double seconds_of_rows(const MeshDistance& distance, const PreparedLattice& latt
   return forecast_seconds(done, all, seconds);
 }
 
-// The lattice as the kernels read it.
-core_f64::Vessel kernel_vessel(const PreparedLattice& lattice) {
-  core_f64::Vessel vessel;
-  core_f64::use_lattice(vessel, core_f64::load_lattice(lattice));
-  return vessel;
-}
-
 }  // namespace
 
 std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeSpec& spec, double spacing) {
@@ -298,9 +291,9 @@ MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mes
       spec.spacing ? given_lattice(mesh.facts, spec) : choose_lattice(distance, mesh.facts, points, spec, progress, made.at_limit);
   if (forecast.say) forecast.say(made.lattice, seconds_of_rows(distance, made.lattice, spec.threads, forecast.clock));
   sample_lattice(distance, made.lattice, spec.threads, progress);
-  const core_f64::Vessel vessel = kernel_vessel(made.lattice);
+  const core_f64::Lattice lattice = core_f64::load_lattice(made.lattice);
   made.error = largest_error(points, spec.threads, [&](const Triple& p) {
-    return core_f64::lattice_distance(vessel, {p[0], p[1], p[2]});
+    return core_f64::lattice_distance(lattice, {p[0], p[1], p[2]});
   });
   if (progress) progress(1);
   return made;
@@ -310,10 +303,10 @@ MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mes
 // that are a cell apart or more those shares add up to the way between them; of walls that are nearer they add up to more, by up to a
 // quarter of a cell. A sample half a cell from a wall has a neighbor across it; one that has none is at a wall within another body.
 EnclosedVolume enclosed_volume(const PreparedLattice& lattice, double area) {
-  const core_f64::Vessel vessel = kernel_vessel(lattice);
+  const core_f64::Lattice loaded = core_f64::load_lattice(lattice);
   const auto is_inside = [&](int i, int j, int k) {
     const bool is_there = i >= 0 && j >= 0 && k >= 0 && i < lattice.nx && j < lattice.ny && k < lattice.nz;
-    return is_there && std::signbit(core_f64::lattice_sample(vessel, i, j, k));  // -0 on a wall within
+    return is_there && std::signbit(core_f64::lattice_sample(loaded, i, j, k));  // -0 on a wall within
   };
   const auto is_deep = [&](int i, int j, int k) {
     return is_inside(i, j, k) && is_inside(i - 1, j, k) && is_inside(i + 1, j, k) && is_inside(i, j - 1, k) &&
@@ -325,7 +318,7 @@ EnclosedVolume enclosed_volume(const PreparedLattice& lattice, double area) {
   for (int k = 0; k < lattice.nz; ++k)
     for (int j = 0; j < lattice.ny; ++j)
       for (int i = 0; i < lattice.nx; ++i) {
-        double share = std::clamp(0.5 - core_f64::lattice_sample(vessel, i, j, k) / lattice.spacing, 0.0, 1.0);
+        double share = std::clamp(0.5 - core_f64::lattice_sample(loaded, i, j, k) / lattice.spacing, 0.0, 1.0);
         if (share == 0) continue;
         if (share > 0.5) enclosed.is_empty = false;
         if (share < 1 && is_deep(i, j, k)) share = 1;

@@ -46,9 +46,8 @@ struct CavityPoints {
   int off_wall = 0, of_wall = 0;  // points of the cavity's wall itself: further from the glass than its inner wall may be; all
 };
 
-CavityPoints count_cavity_points(const PreparedLattice& lattice, const std::vector<PreparedElement>& cavity) {
-  core_f64::Vessel vessel;
-  core_f64::use_lattice(vessel, core_f64::load_lattice(lattice));
+CavityPoints count_cavity_points(const PreparedLattice& prepared, const std::vector<PreparedElement>& cavity) {
+  const core_f64::Lattice lattice = core_f64::load_lattice(prepared);
   CavityPoints points;
   constexpr int HEIGHTS = 16, AZIMUTHS = 8;  // of each piece
   for (const PreparedElement& piece : cavity) {
@@ -58,7 +57,7 @@ CavityPoints count_cavity_points(const PreparedLattice& lattice, const std::vect
       for (int k = 0; k < AZIMUTHS; ++k) {
         const double azimuth = 2 * PI * (k + 0.5) / AZIMUTHS;
         const auto distance_at = [&](double r) {
-          return core_f64::signed_distance(vessel, {r * std::cos(azimuth), y, r * std::sin(azimuth)});
+          return core_f64::lattice_distance(lattice, {r * std::cos(azimuth), y, r * std::sin(azimuth)});
         };
         for (const double share : {0.5, 0.9}) points.inside += distance_at(share * wall) < 0;
         points.all += 2;

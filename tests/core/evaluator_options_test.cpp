@@ -102,11 +102,11 @@ Sweep lattice_errors(const VesselData& data, const std::vector<Vec3>& points, co
   const core_f64::Vessel outline = ready_vessel(data);
   Sweep sweep;
   for (const int samples : resolutions) {
-    const core_f64::Vessel vessel = lattice_vessel(data, samples);
+    const core_f64::Lattice lattice = lattice_of(data, samples);
     double worst = 0;
     for (const Vec3& p : points)
-      worst = std::max(worst, std::abs(core_f64::signed_distance(vessel, p) - core_f64::signed_distance(outline, p)));
-    sweep.steps.push_back(vessel.lattice.spacing);
+      worst = std::max(worst, std::abs(core_f64::lattice_distance(lattice, p) - core_f64::signed_distance(outline, p)));
+    sweep.steps.push_back(lattice.spacing);
     sweep.errors.push_back(worst);
   }
   return sweep;

@@ -21,7 +21,7 @@ const std::vector<std::string> PAIRS = {"hand",  "sdf",  "closure", "contact", "
                                         "score", "trig", "table",   "body",    "wrist"};
 
 // What C++ passes along as its first parameters and GLSL has as buffers or constants.
-const std::set<std::string> CONTEXT = {"hand", "vessel"};
+const std::set<std::string> CONTEXT = {"hand", "vessel", "lattice"};
 
 struct Function {
   std::string name;

@@ -50,7 +50,7 @@ struct Out {
 
 // How a parameter is held until the call: context by reference, an answer until it is written, all else by value.
 template <class T>
-constexpr bool IS_CONTEXT = std::is_same_v<T, Hand> || std::is_same_v<T, Vessel>;
+constexpr bool IS_CONTEXT = std::is_same_v<T, Hand> || std::is_same_v<T, Vessel> || std::is_same_v<T, Lattice>;
 template <class T>
 struct Holder {
   using Type = T;
@@ -76,6 +76,8 @@ struct Row {
       return context.hand;
     } else if constexpr (std::is_same_v<T, const Vessel&>) {
       return context.vessel;
+    } else if constexpr (std::is_same_v<T, const Lattice&>) {
+      return context.vessel.lattice;
     } else {
       T value{};
       read(value);

@@ -352,10 +352,13 @@ long double reference_gap(const HandData& hand, long double closure) {
   return length(joints[INDEX_TIP] - joints[THUMB_TIP]);
 }
 
+core_f64::Lattice lattice_of(const VesselData& vessel, int samples, int bits) {
+  return core_f64::load_lattice(prepare_lattice(prepare_vessel(vessel, vessel.wall > 0), samples, bits == 16));
+}
+
 core_f64::Vessel lattice_vessel(const VesselData& vessel, int samples, int bits) {
   core_f64::Vessel ready = ready_vessel(vessel);
-  core_f64::use_lattice(ready,
-                        core_f64::load_lattice(prepare_lattice(prepare_vessel(vessel, vessel.wall > 0), samples, bits == 16)));
+  core_f64::use_lattice(ready, lattice_of(vessel, samples, bits));
   return ready;
 }
 

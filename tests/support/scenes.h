@@ -58,7 +58,9 @@ Scene scene_of(std::vector<VesselData> vessels, Pose pose = Pose::articulated, c
 
 core_f64::Hand ready_hand(const HandData& hand);
 core_f64::Vessel ready_vessel(const VesselData& vessel, bool with_liquid = false);
-// The same with a lattice of so many samples along its longest side in place of the outline.
+// The vessel's lattice of so many samples along its longest side.
+core_f64::Lattice lattice_of(const VesselData& vessel, int samples, int bits = 32);
+// The vessel with that lattice in place of the outline.
 core_f64::Vessel lattice_vessel(const VesselData& vessel, int samples, int bits = 32);
 core_f64::Grip ready_grip(const GripInput& grip);
 

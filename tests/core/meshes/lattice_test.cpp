@@ -28,12 +28,6 @@ namespace {
 
 constexpr double PLACE_ROUNDING = 1e-15;  // m: double precision of some 10 cm
 
-core_f64::Vessel kernel_lattice(const PreparedLattice& lattice) {
-  core_f64::Vessel vessel;
-  core_f64::use_lattice(vessel, core_f64::load_lattice(lattice));
-  return vessel;
-}
-
 TEST(MeshLattice, SamplesAreDistancesWhereTheyShouldBe) {
   const CheckedMesh mesh = check_mesh(placed_mesh(torus(0.05, 0.02, 60, 30), {0.3, 0, 0}, {0.01, 0.02, 0.03}), "torus");
   const MeshDistance distance(mesh);
@@ -45,7 +39,7 @@ TEST(MeshLattice, SamplesAreDistancesWhereTheyShouldBe) {
     const PreparedLattice lattice = lattice_of_mesh(distance, mesh, spec).lattice;
     EXPECT_EQ(lattice.spacing, 5e-3);
     EXPECT_EQ(lattice.halves, halves);
-    const core_f64::Vessel vessel = kernel_lattice(lattice);
+    const core_f64::Lattice loaded = core_f64::load_lattice(lattice);
     const std::array<int, 3> counts{lattice.nx, lattice.ny, lattice.nz};
     for (int k = 0; k < 3; ++k) {
       EXPECT_NEAR(lattice.origin[k], mesh.facts.low[k] - 8e-3 - 2 * 5e-3, PLACE_ROUNDING);
@@ -56,7 +50,7 @@ TEST(MeshLattice, SamplesAreDistancesWhereTheyShouldBe) {
         for (int i = 0; i < lattice.nx; ++i) {
           const Triple p{lattice.origin[0] + 5e-3 * i, lattice.origin[1] + 5e-3 * j, lattice.origin[2] + 5e-3 * k};
           // single precision of 0.1 m, or 11 bits of it
-          ASSERT_NEAR(core_f64::lattice_sample(vessel, i, j, k), distance.signed_distance(p), halves ? 4e-5 : 1e-8);
+          ASSERT_NEAR(core_f64::lattice_sample(loaded, i, j, k), distance.signed_distance(p), halves ? 4e-5 : 1e-8);
         }
   }
 }
@@ -66,9 +60,9 @@ TEST(MeshLattice, AnOpenMeshKeepsItsSides) {
   const MeshDistance distance(mesh);
   LatticeSpec spec;
   spec.spacing = 6e-3;
-  const core_f64::Vessel vessel = kernel_lattice(lattice_of_mesh(distance, mesh, spec).lattice);
-  EXPECT_NEAR(core_f64::lattice_distance(vessel, {0, 0.03, 0}), -0.02, 1e-3);
-  EXPECT_NEAR(core_f64::lattice_distance(vessel, {0, 0.055, 0}), 0.005, 1e-3);
+  const core_f64::Lattice lattice = core_f64::load_lattice(lattice_of_mesh(distance, mesh, spec).lattice);
+  EXPECT_NEAR(core_f64::lattice_distance(lattice, {0, 0.03, 0}), -0.02, 1e-3);
+  EXPECT_NEAR(core_f64::lattice_distance(lattice, {0, 0.055, 0}), 0.005, 1e-3);
 }
 
 // Largest difference between the lattice and a closed form in a band of 5 mm on both sides of the surface.
@@ -78,14 +72,14 @@ double band_error(const TriangleMesh& triangles, double spacing, const std::func
   LatticeSpec spec;
   spec.spacing = spacing;
   spec.margin = 5e-3;
-  const core_f64::Vessel vessel = kernel_lattice(lattice_of_mesh(distance, mesh, spec).lattice);
+  const core_f64::Lattice lattice = core_f64::load_lattice(lattice_of_mesh(distance, mesh, spec).lattice);
   Random random(10);
   double largest = 0;
   for (int i = 0; i < 100'000; ++i) {
     const double x = random.uniform(-0.08, 0.08), y = random.uniform(-0.08, 0.08);
     const Triple p{x, y, random.uniform(-0.08, 0.08)};
     if (std::abs(exact(p)) > 5e-3) continue;
-    largest = std::max(largest, std::abs(core_f64::lattice_distance(vessel, {p[0], p[1], p[2]}) - exact(p)));
+    largest = std::max(largest, std::abs(core_f64::lattice_distance(lattice, {p[0], p[1], p[2]}) - exact(p)));
   }
   return largest;
 }
@@ -237,7 +231,7 @@ TEST(MeshLattice, DistancesBeyondHalvesAreKeptOrCut) {
   spec.spacing = 20;
   spec.most_bytes = 16'000;
   const auto middle = [&] {
-    return core_f64::lattice_distance(kernel_lattice(lattice_of_mesh(distance, mesh, spec).lattice), {100, 100, 100});
+    return core_f64::lattice_distance(core_f64::load_lattice(lattice_of_mesh(distance, mesh, spec).lattice), {100, 100, 100});
   };
   EXPECT_EQ(middle(), -100);
   spec.bits = 16;
