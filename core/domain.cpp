@@ -33,7 +33,7 @@ double farthest(const VesselData& vessel) {
   double largest = 0;
   if (vessel.mesh) {
     for (int k = 0; k < 3; ++k)
-      largest = std::max({largest, std::abs(vessel.mesh->body->low[k]), std::abs(vessel.mesh->body->high[k])});
+      largest = std::max({largest, std::abs(vessel.mesh->body->facts.low[k]), std::abs(vessel.mesh->body->facts.high[k])});
   }
   largest = std::max(largest, farthest(vessel.outline));
   if (vessel.surface == Surface::shell) largest = std::max(largest, farthest(vessel.inner));  // a part of the surface then

@@ -115,7 +115,7 @@ PreparedVessel prepare_mesh(const VesselData& vessel, bool needs_cavity) {
     prepared.mouth_height = prepared.cavity.back().b[1];
     prepared.mouth_radius = prepared.cavity.back().b[0];
   }
-  prepared.bound_height = 0.5 * (body.low[1] + body.high[1]);
+  prepared.bound_height = 0.5 * (body.facts.low[1] + body.facts.high[1]);
   for (const Triple& p : body.vertices) {
     const double across = std::hypot(p[0], p[2]);
     prepared.largest_radius = std::max(prepared.largest_radius, across);

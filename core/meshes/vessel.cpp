@@ -74,18 +74,19 @@ std::string place_cavity(const VesselData& vessel, MeshBody& body) {
   const std::vector<PreparedElement> cavity = prepare_cavity(vessel);
   double widest = 0, reach = 0;
   for (const PreparedElement& e : cavity) widest = std::max(widest, widest_on(e));
-  for (const int k : {0, 2}) reach = std::max({reach, std::abs(body.low[k]), std::abs(body.high[k])});
+  for (const int k : {0, 2}) reach = std::max({reach, std::abs(body.facts.low[k]), std::abs(body.facts.high[k])});
   const double floor = cavity.front().a[1], mouth = cavity.back().b[1];
-  const std::string hint = inner_outline_hint(mouth - floor, widest, body.high[1] - body.low[1], reach);
+  const std::string hint = inner_outline_hint(mouth - floor, widest, body.facts.high[1] - body.facts.low[1], reach);
   const auto refuse = [&](const std::string& what) {
     throw usage_error(
         at_place(vessel.mesh->place, fmt::format("vessel '{}': {}", vessel.name, hint.empty() ? what : what + "; " + hint)));
   };
-  if (floor < body.low[1] - ROUNDED_OUTLINE || mouth > body.high[1] + ROUNDED_OUTLINE || widest > reach + ROUNDED_OUTLINE) {
+  if (floor < body.facts.low[1] - ROUNDED_OUTLINE || mouth > body.facts.high[1] + ROUNDED_OUTLINE ||
+      widest > reach + ROUNDED_OUTLINE) {
     refuse(fmt::format(
         "the inner outline (heights {:.4g} to {:.4g} mm, radius {:.4g}) reaches beyond the mesh (heights {:.4g} to {:.4g} "
         "mm, {:.4g} from the axis); give it in the vessel's frame",
-        1e3 * floor, 1e3 * mouth, 1e3 * widest, 1e3 * body.low[1], 1e3 * body.high[1], 1e3 * reach));
+        1e3 * floor, 1e3 * mouth, 1e3 * widest, 1e3 * body.facts.low[1], 1e3 * body.facts.high[1], 1e3 * reach));
   }
   const CavityPoints points = count_cavity_points(body.lattice, cavity);
   const double share = static_cast<double>(points.inside) / points.all;
@@ -140,23 +141,30 @@ std::string mass_text(const VesselData& vessel, const MeshBody& body) {
 }
 
 // Takes volume and center of mass from the mesh, or from its lattice if triangles do not determine them: they cannot all face outward, a wall ends
-// within the body, or bodies overlap, so that the sum over triangles counts some parts twice. Returns a sentence that says so, else "".
-std::string set_volume(const MeshFacts& facts, const std::string& name, bool has_mass, MeshBody& body) {
+// within the body, or bodies overlap, so that the sum over triangles counts some parts twice.
+void set_volume(const std::string& name, MeshBody& body) {
+  const MeshFacts& facts = body.facts;
   body.volume = facts.volume;
   body.center_of_mass = facts.center_of_mass;
   const EnclosedVolume enclosed = enclosed_volume(body.lattice, facts.area);
   const double off = enclosed.volume - facts.volume;
-  if (facts.has_sure_volume() && !(std::abs(off) > OTHER_VOLUME * facts.volume + enclosed.doubt)) return "";
+  if (facts.has_sure_volume() && !(std::abs(off) > OTHER_VOLUME * facts.volume + enclosed.doubt)) return;
   if (enclosed.is_empty)
     throw usage_error(name + ": encloses no place of its lattice, so it has no inside: make one closed body of it");
   body.volume = enclosed.volume;
   body.center_of_mass = enclosed.center;
+  body.has_lattice_volume = true;
+}
+
+// Why volume and center of mass are those of the lattice.
+std::string lattice_volume_text(const VesselData& vessel, const MeshBody& body) {
+  const MeshFacts& facts = body.facts;
   const char* cause = !facts.oriented        ? "its triangles cannot all face outward"
                       : facts.odd_edges > 0  ? "a wall or a fin ends on it"
                       : facts.open_edges > 0 ? "its holes leave open what is inside"
                                              : "its bodies overlap";
   return fmt::format("{}: inside it are {}, by the lattice, and these are taken; make one closed body of it{}", cause,
-                     filled_text(enclosed.volume, enclosed.center), has_mass ? "" : ", or give mass_kg");
+                     filled_text(body.volume, body.center_of_mass), vessel.mass ? "" : ", or give mass_kg");
 }
 
 // Shows a status while work runs, and clears it at the end, even after an error.
@@ -185,12 +193,31 @@ void check_above_table(const Scene& scene, const MeshData& data, const std::stri
                                        name, 1e3 * height, 1e3 * scene.table->clearance)));
 }
 
+// The lattice of a mesh, with progress, and an announcement of long work.
+MeshLattice take_lattice(const CheckedMesh& mesh, const LatticeSpec& spec, const std::string& name, const MeshOptions& options,
+                         const StatusLine& status) {
+  std::optional<Progress> samples;  // once it is known how many
+  const auto progress = [&](double share) {
+    const std::string what = name + ": distances to its mesh";
+    if (!samples) return status.show(fmt::format("{}  {:.0f} %", what, 100 * share));
+    samples->update(what, static_cast<std::uint64_t>(share * static_cast<double>(samples->total())));
+  };
+  const auto announce = [&](const PreparedLattice& lattice, double seconds) {
+    if (!options.is_quiet) samples.emplace(std::uint64_t(lattice.nx) * lattice.ny * lattice.nz, 0, "samples");
+    if (!is_long(seconds, mesh.facts.closed)) return;
+    status.show("");
+    const auto& print_line = options.say ? options.say : options.forecast;
+    if (print_line) print_line(name + ": " + forecast_text(lattice, seconds, mesh.facts.closed));
+  };
+  return cached_lattice(mesh, spec, options.cache_folder, progress, {announce, options.clock});
+}
+
 void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder, const MeshOptions& options,
                std::istream& lattices) {
   const MeshData& data = *vessel.mesh;
   const std::string name = fmt::format("vessel '{}'", vessel.name);
   const auto say = [&](const std::string& line) {
-    if (options.say) options.say(name + ": " + line);
+    if (options.say && !line.empty()) options.say(name + ": " + line);
   };
   const StatusLine status(options.is_quiet);
   status.show(fmt::format("{}: reading {}", name, data.file));
@@ -203,8 +230,8 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   say(data.file + ": " + mesh_check_text(facts));
   const SizeHint size = mesh_size_hint(facts.size(), data.scale);
   const bool is_turned = says_what_is_up || data.says_up || data.rotate != Triple{};
-  for (const std::string& hint : {size.text, is_turned ? "" : posture_hint(checked.mesh, facts)})
-    if (!hint.empty()) say(hint);
+  say(size.text);
+  if (!is_turned) say(posture_hint(checked.mesh, facts));
   check_above_table(scene, data, name, facts.high[1] - facts.low[1]);
   auto body = std::make_shared<MeshBody>();
   LatticeSpec spec = lattice_spec(scene, data, size.is_other_unit, options);
@@ -217,21 +244,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   }
   cache_limit();  // throws here: a wrong limit is not the fault of grid_mm
   try {
-    std::optional<Progress> samples;  // once it is known how many
-    const auto progress = [&](double share) {
-      const std::string what = name + ": distances to its mesh";
-      if (!samples) return status.show(fmt::format("{}  {:.0f} %", what, 100 * share));
-      samples->update(what, static_cast<std::uint64_t>(share * static_cast<double>(samples->total())));
-    };
-    const auto announce = [&](const PreparedLattice& lattice, double seconds) {
-      if (!options.is_quiet) samples.emplace(std::uint64_t(lattice.nx) * lattice.ny * lattice.nz, 0, "samples");
-      if (!is_long(seconds, facts.closed)) return;
-      status.show("");
-      const auto& print_line = options.say ? options.say : options.forecast;
-      if (print_line) print_line(name + ": " + forecast_text(lattice, seconds, facts.closed));
-    };
-    MeshLattice made = cached_lattice(checked, spec, options.cache_folder, progress, {announce, options.clock});
-    samples.reset();
+    MeshLattice made = take_lattice(checked, spec, name, options, status);
     status.show("");
     body->lattice = std::move(made.lattice);
     body->lattice_error = made.error;
@@ -240,19 +253,16 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
     if (error.code != ExitCode::usage) throw;
     throw usage_error(at_place(data.place, name + ": grid_mm: " + error.what()));
   }
-  body->low = facts.low;
-  body->high = facts.high;
-  const std::string other_volume = set_volume(facts, at_place(data.place, data.file), vessel.mass.has_value(), *body);
-  if (!other_volume.empty()) say(other_volume);
-  body->facts = mesh_check_text(facts) + (other_volume.empty() ? "" : " But " + other_volume + ".");
+  body->facts = facts;
+  set_volume(at_place(data.place, data.file), *body);
+  if (body->has_lattice_volume) say(lattice_volume_text(vessel, *body));
   body->vertices = std::move(checked.mesh.vertices);
   body->triangles = std::move(checked.mesh.triangles);
-  const std::string cavity_hint = vessel.has_cavity() ? place_cavity(vessel, *body) : "";
-  if (!cavity_hint.empty()) say(cavity_hint);
+  if (vessel.has_cavity()) say(place_cavity(vessel, *body));
   say(lattice_text(*body));
   say(mass_text(vessel, *body));
-  vessel.base = body->low[1];
-  vessel.height = body->high[1];
+  vessel.base = facts.low[1];
+  vessel.height = facts.high[1];
   vessel.mesh->body = std::move(body);
 }
 
@@ -308,8 +318,10 @@ std::string mesh_lines(const Scene& scene) {
   std::string lines;
   for (const VesselData& vessel : scene.vessels) {
     if (!vessel.mesh || !vessel.mesh->body) continue;
-    for (const std::string& part : {vessel.mesh->file + ": " + vessel.mesh->body->facts, lattice_text(*vessel.mesh->body),
-                                    mass_text(vessel, *vessel.mesh->body)})
+    const MeshBody& body = *vessel.mesh->body;
+    const std::string but = body.has_lattice_volume ? " But " + lattice_volume_text(vessel, body) + "." : "";
+    for (const std::string& part :
+         {vessel.mesh->file + ": " + mesh_check_text(body.facts) + but, lattice_text(body), mass_text(vessel, body)})
       lines += fmt::format("{}vessel '{}': {}", lines.empty() ? "" : "\n", vessel.name, part);
   }
   return lines;

@@ -119,7 +119,7 @@ std::string form_text(const VesselData& vessel) {
 double widest(const ReportSource& source, const VesselData& vessel) {
   if (vessel.mesh && vessel.mesh->body) {
     const MeshBody& body = *vessel.mesh->body;
-    return std::max(body.high[0] - body.low[0], body.high[2] - body.low[2]);
+    return std::max(body.facts.high[0] - body.facts.low[0], body.facts.high[2] - body.facts.low[2]);
   }
   if (vessel.outline.empty() || !source.core) return std::nan("");
   return 2 * prepare_vessel(vessel, vessel.has_cavity()).largest_radius;

@@ -53,8 +53,8 @@ TEST(Prepare, AMeshIsItsBodyAndItsInnerOutline) {
   EXPECT_THROW(prepare_vessel(vessel, false), Error) << "not read";
   MeshBody body;
   body.vertices = {{0.03, -0.02, 0.04}, {0, 0.08, 0}, {0, -0.02, 0}};
-  body.low = {0, -0.02, 0};
-  body.high = {0.03, 0.08, 0.04};
+  body.facts.low = {0, -0.02, 0};
+  body.facts.high = {0.03, 0.08, 0.04};
   vessel.base = -0.02;
   vessel.height = 0.08;
   // floor at -15 mm, a level step out, a quarter circle, and straight up to the mouth

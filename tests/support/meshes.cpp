@@ -185,8 +185,7 @@ MeshBody body_of(const TriangleMesh& mesh) {
   MeshBody body;
   body.vertices = checked.mesh.vertices;
   body.triangles = checked.mesh.triangles;
-  body.low = checked.facts.low;
-  body.high = checked.facts.high;
+  body.facts = checked.facts;
   body.volume = checked.facts.volume;
   body.center_of_mass = checked.facts.center_of_mass;
   return body;
@@ -207,8 +206,8 @@ VesselData vessel_of_mesh(const std::string& name, const TriangleMesh& mesh, dou
   vessel.name = name;
   vessel.mesh.emplace();
   vessel.mesh->file = name + ".glb";
-  vessel.base = body->low[1];
-  vessel.height = body->high[1];
+  vessel.base = body->facts.low[1];
+  vessel.height = body->facts.high[1];
   vessel.mesh->body = std::move(body);
   return vessel;
 }

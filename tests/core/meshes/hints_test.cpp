@@ -129,10 +129,7 @@ TEST(MeshHints, AnOpenSideThatIsNotUpIsNamedWithTheKeyThatRaisesIt) {
     const LoadedMesh raised = load(folder, open_box(each.turn), said.substr(begin, said.find(" stands it up") - begin));
     EXPECT_FALSE(has(raised.said, "stands it up")) << raised.said;
     const MeshBody& body = *raised.scene.vessels[0].mesh->body;
-    MeshFacts facts;
-    facts.low = body.low;
-    facts.high = body.high;
-    EXPECT_EQ(open_side({body.vertices, body.triangles}, facts), Side::up) << each.side;
+    EXPECT_EQ(open_side({body.vertices, body.triangles}, body.facts), Side::up) << each.side;
   }
   EXPECT_FALSE(has(load(folder, open_box({}), "").said, "stands it up"));
   // the scene says which way is up, or glTF does

@@ -144,7 +144,7 @@ TEST_F(MeshVessel, TurnedAndMovedCopiesGiveTheSameGrips) {
   const Scene again = loaded({stood});
   const MeshBody &a = *plain.vessels[0].mesh->body, &b = *again.vessels[0].mesh->body;
   for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(a.low[k], b.low[k], 1e-7);  // the file holds floats
+    EXPECT_NEAR(a.facts.low[k], b.facts.low[k], 1e-7);  // the file holds floats
     EXPECT_NEAR(a.center_of_mass[k], b.center_of_mass[k], 1e-7);
   }
   const auto grips = side_grips(0.03, 0.09, 300);
