@@ -347,48 +347,28 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
 
 // (-w).u / h(u) is a lower bound of the effort for any u, and the levels' sum an upper one once no artificial column carries anything. A point of Z
 // with a higher price than the columns of the basis enters.
-Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Real too_much, int most_pivots) {
-  Effort answer;
-  last_ = {};
-  const Vec6 wanted = wanted_for(load);
-  const Real square = dot6(wanted, wanted), size = std::sqrt(square);
-  if (!(square >= std::numeric_limits<Real>::min())) {
-    has_basis_ = false;
-    return answer;
-  }
-  const bool is_warm = has_basis_;
-  if (is_warm) {
-    restart(wanted);
-  } else {
-    begin(wanted);
-  }
-  bool is_beyond = false;
-  Vec6 best{};                       // the direction of the greatest lower bound
-  bool is_fresh = false;             // the inverse
-  std::array<Column, 6> balanced{};  // the last basis whose levels are none below zero
-  bool is_balanced = false;
+void EffortSolver::narrow(Search& now) {
+  Effort& answer = now.answer;
+  bool is_fresh = false;  // the inverse
   for (;; ++answer.pivots) {
     if (answer.pivots % FRESH_PIVOTS == FRESH_PIVOTS - 1 && !invert()) break;
-    const Cost cost = cost_of(levels(wanted));
-    const bool is_short = cost.artificial > ROUNDING * size;
-    if (!is_short && cost.least >= -ROUNDING * cost.real) {
-      balanced = columns_;
-      is_balanced = true;
-    }
+    const Cost cost = cost_of(levels(now.wanted));
+    const bool is_short = cost.artificial > ROUNDING * now.size;
+    if (!is_short && cost.least >= -ROUNDING * cost.real) now.balanced = columns_;
     Column column = priced(is_short);
-    const Real height = support(column.direction, column.point), value = dot6(column.direction, wanted);
+    const Real height = support(column.direction, column.point), value = dot6(column.direction, now.wanted);
     if (value > 0 && value > answer.low * height) {
       answer.low = height > 0 ? value / height : NEVER;
-      best = column.direction;
-      cut_ = best;
+      now.best = column.direction;
+      cut_ = now.best;
       cut_height_ = height;
     }
-    if (answer.low > dear_ * size) answer.low = NEVER;
+    if (answer.low > dear_ * now.size) answer.low = NEVER;
     if (!std::isfinite(answer.low)) break;
-    if (!is_short && (cost.real <= enough || cost.real - answer.low <= tolerance * cost.real)) break;
-    is_beyond = answer.low > too_much;
-    if (is_beyond || answer.pivots == most_pivots) break;
-    if (height > (is_short ? Real(0) : Real(1)) && enter(column, wanted)) {
+    if (!is_short && (cost.real <= now.enough || cost.real - answer.low <= now.tolerance * cost.real)) break;
+    now.is_beyond = answer.low > now.too_much;
+    if (now.is_beyond || answer.pivots == now.most_pivots) break;
+    if (height > (is_short ? Real(0) : Real(1)) && enter(column, now.wanted)) {
       is_fresh = false;
     } else if (is_fresh || !invert()) {  // the end of the search may be due to accumulated rounding of the inverse
       break;
@@ -396,48 +376,67 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
       is_fresh = true;
     }
   }
+}
+
+// Answers with the effort of the basis if its forces balance the load, and returns whether they do. `is_certain`: no force resists the load.
+bool EffortSolver::answer_with_basis(Search& now, bool& is_certain) {
+  if (!invert()) return false;
+  last_ = levels(now.wanted);
+  Vec6 rest = now.wanted;  // what rounding of the inverse leaves unbalanced, where columns are nearly parallel
+  for (std::size_t r = 0; r < 6; ++r)
+    for (std::size_t k = 0; k < 6; ++k) rest[k] -= last_[r] * columns_[r].point[k];
+  const Vec6 more = levels(rest);
+  for (std::size_t r = 0; r < 6; ++r) last_[r] += more[r];
+  const Cost cost = cost_of(last_);
+  const bool is_carried = cost.artificial <= ROUNDING * now.size, is_dear = cost.real > FIRST_COST * dear_ * now.size;
+  // Artificial columns carry only rounding here; otherwise the direction of an unresisted load would have shown it.
+  is_certain = is_carried && is_dear;
+  if (!is_carried || is_dear || !(unbalanced(now.wanted) <= UNBALANCED * now.size)) return false;
+  now.answer.effort = cost.real;
+  now.answer.low = std::min(now.answer.low, now.answer.effort);
+  return true;
+}
+
+Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Real too_much, int most_pivots) {
+  last_ = {};
+  Search now{
+      .wanted = wanted_for(load), .tolerance = tolerance, .enough = enough, .too_much = too_much, .most_pivots = most_pivots};
+  Effort& answer = now.answer;
+  const Real square = dot6(now.wanted, now.wanted);
+  now.size = std::sqrt(square);
+  if (!(square >= std::numeric_limits<Real>::min())) {
+    has_basis_ = false;
+    return answer;
+  }
+  const bool is_warm = has_basis_;
+  if (is_warm) {
+    restart(now.wanted);
+  } else {
+    begin(now.wanted);
+  }
+  narrow(now);
   bool is_certain = !std::isfinite(answer.low);
+  if (!is_certain && answer_with_basis(now, is_certain)) return answer;
   // If the digits' strengths are far apart, or columns nearly parallel, the columns of the last part of the tolerance may leave forces that do not
   // balance. All tries together take no more pivots than one may. The last try answers with the previous ones.
   const bool is_last_try = !is_warm && (answer.pivots >= most_pivots || tolerance >= MOST_TOLERANCE);
-  for (const bool is_end : {true, false}) {
-    if (is_certain || (!is_end && !(is_last_try && is_balanced))) break;
-    if (!is_end) columns_ = balanced;
-    if (!invert()) continue;
-    last_ = levels(wanted);
-    Vec6 rest = wanted;  // what rounding of the inverse leaves unbalanced, where columns are nearly parallel
-    for (std::size_t r = 0; r < 6; ++r)
-      for (std::size_t k = 0; k < 6; ++k) rest[k] -= last_[r] * columns_[r].point[k];
-    const Vec6 more = levels(rest);
-    for (std::size_t r = 0; r < 6; ++r) last_[r] += more[r];
-    const Cost cost = cost_of(last_);
-    const bool is_carried = cost.artificial <= ROUNDING * size, is_dear = cost.real > FIRST_COST * dear_ * size;
-    if (is_carried && !is_dear && unbalanced(wanted) <= UNBALANCED * size) {
-      answer.effort = cost.real;
-      answer.low = std::min(answer.low, answer.effort);
-      return answer;
-    }
-    // Artificial columns carry only rounding here; otherwise the direction of an unresisted load would have shown it.
-    is_certain = is_carried && is_dear;
+  if (!is_certain && is_last_try && now.balanced) {
+    columns_ = *now.balanced;
+    if (answer_with_basis(now, is_certain)) return answer;
   }
   answer.effort = NEVER;
-  if (is_beyond) return answer;
+  if (now.is_beyond) return answer;
   has_basis_ = false;
-  if (is_warm) {  // a basis of another load may end in a corner; only a search from the start proves that nothing holds
-    const int pivots = answer.pivots;
-    answer = search(load, tolerance, enough, too_much, EFFORT_PIVOTS);
-    answer.pivots += pivots;
-    return answer;
-  }
-  if (!is_certain && !is_last_try) {
-    const int pivots = answer.pivots;
-    answer = search(load, WIDER * tolerance, enough, too_much, most_pivots - pivots);
-    answer.pivots += pivots;
-    return answer;
+  if (is_warm || !(is_certain || is_last_try)) {
+    // a basis of another load may end in a corner; only a search from the start proves that nothing holds
+    Effort other = is_warm ? search(load, tolerance, enough, too_much, EFFORT_PIVOTS)
+                           : search(load, WIDER * tolerance, enough, too_much, most_pivots - answer.pivots);
+    other.pivots += answer.pivots;
+    return other;
   }
   if (is_certain) answer.low = NEVER;
-  const Real largest = std::max(glm::length(first(best)), glm::length(second(best)));
-  answer.escape = stack(-first(best) / largest, -second(best) / (largest * unit_length_));
+  const Real largest = std::max(glm::length(first(now.best)), glm::length(second(now.best)));
+  answer.escape = stack(-first(now.best) / largest, -second(now.best) / (largest * unit_length_));
   return answer;
 }
 

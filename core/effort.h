@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/real.h"
@@ -115,9 +116,22 @@ class EffortSolver {
   struct Reach {
     Real height = 0, slope = 0;
   };
+  // What a search needs and has found.
+  struct Search {
+    Vec6 wanted{};
+    Real size = 0;  // of `wanted`
+    Real tolerance = 0, enough = 0, too_much = 0;
+    int most_pivots = 0;
+    Effort answer{};
+    Vec6 best{};                                    // the direction of the greatest lower bound
+    std::optional<std::array<Column, 6>> balanced;  // the last basis whose levels are none below zero
+    bool is_beyond = false;                         // the lower bound is beyond `too_much`
+  };
   using Best = std::array<int, DIGITS>;  // a contact each; -1: none
 
   Effort search(const Wrench& load, Real tolerance, Real enough, Real too_much, int most_pivots);
+  void narrow(Search& now);
+  bool answer_with_basis(Search& now, bool& is_certain);
   Vec6 wanted_for(const Wrench& load) const;
   Best best_contacts(const Vec6& direction) const;
   Cost cost_of(const Vec6& levels) const;

@@ -40,15 +40,20 @@ Vec3 separations_of(const Vessel& vessel, const FingerPoints& points, const Plac
               separation_at(vessel, points.tip, finger.radius[4]));
 }
 
+// From joint `first` on.
+void put_points(const FingerPoints& points, int first, GripAnswer& answer) {
+  answer.posed[first] = points.pip;
+  answer.posed[first + 1] = points.dip;
+  answer.posed[first + 2] = points.tip;
+}
+
 // Sets the three joints beyond an MCP, and which of a finger's five points touched before projection.
 void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger& finger, int f, GripAnswer& answer, int& before) {
   const std::array<Real, 4> radii{finger.radius[1], finger.radius[2], finger.radius[3], finger.radius[4]};
   const RestingFinger resting =
       rest_finger(hand, vessel, {finger.frame, finger.mcp, finger.lengths, radii}, answer.closing.closure);
   const int j = finger_start(f);
-  answer.posed[j + 2] = resting.points.pip;
-  answer.posed[j + 3] = resting.points.dip;
-  answer.posed[j + 4] = resting.points.tip;
+  put_points(resting.points, j + 2, answer);
   for (int k = 0; k < 3; ++k) {
     answer.separation[j + 2 + k] = resting.separations[k];
     if (resting.before[k] <= hand.contact_tolerance) before |= 1 << (2 + k);
@@ -75,6 +80,27 @@ void pose_paper(const Hand& hand, const Vessel& vessel, const PlacedFinger& fing
         project_point(vessel, points[k], finger.radius[2 + k], finger.mcp, axis, hand.paper_max_angle, unsettled);
     if (unsettled) answer.status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
   }
+}
+
+// Poses the hand where it closed. The thumb's chain starts at its base, that of another finger at its MCP.
+std::array<PlacedFinger, FINGERS> rig_hand(const Hand& hand, PoseKind pose, Wanted wanted, GripAnswer& answer) {
+  const Closing& closing = answer.closing;
+  const Vec3 thumb_lengths = closing.placement.scale * Vec3(hand.length[0][0], hand.length[0][1], hand.length[0][2]);
+  const FingerFrame thumb = placed_frame(closing.placement, hand.frame[0]);
+  answer.posed[0] = thumb.base;
+  put_points(thumb_points(thumb, thumb_lengths, thumb_angles(hand, closing.closure)), 1, answer);
+  const Vec3 angles = finger_angles(hand, closing.closure);
+  std::array<PlacedFinger, FINGERS> fingers;
+  for (int f = 1; f < FINGERS; ++f) {
+    const int j = finger_start(f);
+    fingers[f] = place_finger(hand, closing.placement, f);
+    answer.posed[j] = fingers[f].frame.base;
+    answer.posed[j + 1] = fingers[f].mcp;
+    // in pose articulated the last three fingers close on their own: their rigged points are only for display
+    if (f == 1 || pose != PoseKind::articulated || wanted.joints)
+      put_points(finger_points(fingers[f].frame, fingers[f].mcp, fingers[f].lengths, angles), j + 2, answer);
+  }
+  return fingers;
 }
 
 // Kernel 4 on the posed hand: masks, depths, proxies and bone stretch. A finger's base and MCP do not move, so this also finds whether they touched
@@ -201,31 +227,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
   const Real cone = std::atan(friction);
   if (cone > 0 && closing.thumb_angle <= cone && closing.index_angle <= cone) answer.status |= STATUS_ANTIPODAL;
 
-  // the rigged hand: the thumb's chain starts at its base, that of another finger at its MCP
-  const Real scale = closing.placement.scale;
-  const Vec3 thumb_lengths = scale * Vec3(hand.length[0][0], hand.length[0][1], hand.length[0][2]);
-  const FingerFrame thumb = placed_frame(closing.placement, hand.frame[0]);
-  const FingerPoints opposing = thumb_points(thumb, thumb_lengths, thumb_angles(hand, closing.closure));
-  answer.posed[0] = thumb.base;
-  answer.posed[1] = opposing.pip;
-  answer.posed[2] = opposing.dip;
-  answer.posed[3] = opposing.tip;
-
-  const Vec3 angles = finger_angles(hand, closing.closure);
-  std::array<PlacedFinger, FINGERS> fingers;
-  for (int f = 1; f < FINGERS; ++f) {
-    const int j = finger_start(f);
-    fingers[f] = place_finger(hand, closing.placement, f);
-    answer.posed[j] = fingers[f].frame.base;
-    answer.posed[j + 1] = fingers[f].mcp;
-    // in pose articulated the last three fingers close on their own: their rigged points are only for display
-    if (f == 1 || pose != PoseKind::articulated || wanted.joints) {
-      const FingerPoints points = finger_points(fingers[f].frame, fingers[f].mcp, fingers[f].lengths, angles);
-      answer.posed[j + 2] = points.pip;
-      answer.posed[j + 3] = points.dip;
-      answer.posed[j + 4] = points.tip;
-    }
-  }
+  const std::array<PlacedFinger, FINGERS> fingers = rig_hand(hand, pose, wanted, answer);
   if (wanted.joints) answer.joints = answer.posed;
 
   // thumb and index stay; the other three come to rest on the vessel
@@ -245,6 +247,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
     }
   }
   // what the posed hand touches, and how deep
+  const Real scale = closing.placement.scale;
   Real judged_depth = examine_pose(hand, vessel, pose, wanted, scale, before, answer);
   if (hand.between > 0) judged_depth = std::max(judged_depth, examine_between(hand, vessel, pose, scale, answer));
   if (judged_depth <= hand.depth_limit) answer.status |= STATUS_PLAUSIBLE;

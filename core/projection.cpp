@@ -148,7 +148,8 @@ int decide_turn(const Hand& hand, Vec3 clear, const FingerMotion& motion, bool& 
 RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& finger, Real limit) {
   const int between = hand.between;
   const int places = 3 * (between + 1);
-  RestingFinger resting;
+  int most_steps = 0;  // of a stage
+  bool undecided = false;
   FingerMotion motion = start_motion(hand, limit);
   FingerWatch watch;
   while (watch.number < places) {
@@ -157,7 +158,7 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     const Support support = support_at(vessel, place.ball.place);
     const Real separation = support.distance - place.ball.radius;
     see_place(hand, separation, place_step(support, separation, place, finger.frame), motion, watch);
-    resting.undecided = resting.undecided || passes_close(vessel, support, separation, place, finger.frame);
+    undecided = undecided || passes_close(vessel, support, separation, place, finger.frame);
 
     // the next joint to turn is chosen once all points have been evaluated, or where a point that was due touches
     const int moving = std::max(motion.joint, 0);  // first bone that moves
@@ -181,15 +182,12 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     if (joint == motion.joint && (seen_all || !watch.looks)) {
       Real due = 0;
       next = soonest_place(hand, watch, motion.joint, due);
-      const bool is_spent = motion.steps >= hand.limits.advance_steps;
-      if (!is_spent) motion.at = std::min(due, motion.end);
-      if (is_spent || !(due < motion.end)) {
-        joint = is_spent ? 3 : motion.joint + 1;
+      const bool has_moved = motion.advance(due, hand.limits.advance_steps);
+      if (has_moved) most_steps = std::max(most_steps, motion.steps);
+      if (!has_moved || !(due < motion.end)) {
+        joint = has_moved ? motion.joint + 1 : 3;
         from = moving;
       }
-      ++motion.steps;
-      motion.unsettled = motion.unsettled || is_spent;
-      if (!is_spent) resting.steps = std::max(resting.steps, motion.steps);
       watch.looks = false;
     }
 
@@ -203,14 +201,9 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     }
     watch.number = next;
   }
-  const Vec3 angles = segment_angles(motion);
-  resting.angles = Vec3(angles.x, angles.y - angles.x, angles.z - angles.y);
-  resting.points = finger_points(finger.frame, finger.mcp, finger.lengths, resting.angles);
-  resting.separations = watch.separations;
-  resting.before = watch.before;
-  resting.blocked = motion.blocked;
-  resting.unsettled = motion.unsettled;
-  return resting;
+  const Vec3 sums = segment_angles(motion), angles(sums.x, sums.y - sums.x, sums.z - sums.y);
+  const FingerPoints points = finger_points(finger.frame, finger.mcp, finger.lengths, angles);
+  return {angles, points, watch.separations, watch.before, most_steps, motion.blocked, motion.unsettled, undecided};
 }
 
 PaperAxis paper_axis(Vec3 index_mcp, Vec3 little_mcp, Vec3 index_tip, Vec3 thumb_tip) {

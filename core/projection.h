@@ -2,6 +2,7 @@
 // Kernel 5: brings middle, ring and little finger to rest on the vessel.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/body.h"
@@ -19,6 +20,15 @@ struct FingerMotion {
   int steps = 0;           // of this stage
   bool blocked = false;    // a watched place was inside when open
   bool unsettled = false;  // took all its steps
+
+  // A step until a place is due, or to the end of the stage. False: all `most` steps are taken, and it stays.
+  bool advance(Real due, int most) {
+    const bool has_steps = steps < most;
+    if (has_steps) at = std::min(due, end);
+    unsettled = unsettled || !has_steps;
+    ++steps;
+    return has_steps;
+  }
 };
 
 // The axis about which the points of pose `paper` turn; only its origin differs between them.
