@@ -69,6 +69,22 @@ DeviceKind kind_of(vk::PhysicalDeviceType type) {
   }
 }
 
+void describe_memory(const vk::raii::PhysicalDevice& physical, DeviceInfo& info) {
+  const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
+  for (std::uint32_t i = 0; i < memory.memoryHeapCount; i++) {
+    if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) {
+      info.memory = std::max<std::uint64_t>(info.memory, memory.memoryHeaps[i].size);
+    }
+  }
+  // a discrete GPU may offer a window to all of its memory, but reading through it is slow
+  const auto direct = vk::MemoryPropertyFlagBits::eDeviceLocal | vk::MemoryPropertyFlagBits::eHostVisible |
+                      vk::MemoryPropertyFlagBits::eHostCoherent;
+  for (std::uint32_t i = 0; i < memory.memoryTypeCount; i++) {
+    info.unified_memory |= (info.kind == DeviceKind::cpu || info.kind == DeviceKind::integrated) &&
+                           (memory.memoryTypes[i].propertyFlags & direct) == direct;
+  }
+}
+
 }  // namespace
 
 const char* device_kind_name(DeviceKind kind) {
@@ -170,20 +186,7 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, std::size_t
   std::ranges::copy(core.limits.maxComputeWorkGroupCount, info.max_group_count.begin());
   info.shared_memory = core.limits.maxComputeSharedMemorySize;
   info.float64 = physical.getFeatures().shaderFloat64;
-
-  const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
-  for (std::uint32_t i = 0; i < memory.memoryHeapCount; i++) {
-    if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) {
-      info.memory = std::max<std::uint64_t>(info.memory, memory.memoryHeaps[i].size);
-    }
-  }
-  // a discrete GPU may offer a window to all of its memory, but reading through it is slow
-  const auto direct = vk::MemoryPropertyFlagBits::eDeviceLocal | vk::MemoryPropertyFlagBits::eHostVisible |
-                      vk::MemoryPropertyFlagBits::eHostCoherent;
-  for (std::uint32_t i = 0; i < memory.memoryTypeCount; i++) {
-    info.unified_memory |= (info.kind == DeviceKind::cpu || info.kind == DeviceKind::integrated) &&
-                           (memory.memoryTypes[i].propertyFlags & direct) == direct;
-  }
+  describe_memory(physical, info);
   bool computes = false;
   for (const auto& family : physical.getQueueFamilyProperties()) {
     if (family.queueFlags & vk::QueueFlagBits::eCompute) {

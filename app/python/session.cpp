@@ -157,23 +157,12 @@ std::string step_text(const Step& step) {
   return fmt::format("<Step {}: {}{}, grip force {:.3g} N>", step.tick.number, state, of, step.tick.wanted.grip);
 }
 
-void bind_step(py::module_& module) {
-  const auto number = [](auto Tick::*member) { return [member](const Step& step) { return step.tick.*member; }; };
-  const auto triple = [](auto Tick::*member) { return [member](const Step& step) { return array_of(step.tick.*member); }; };
-  py::class_<Step>(
-      module, "Step",
-      "One period of a live session: forces, states and the hand. Made by ``Session.step``.\n\n"
-      "It stays as it is when the session goes on. SI units. Forces of arm_force are in the device frame, places in the\n"
-      "world frame (+y up).")
-      .def_property_readonly("tick", number(&Tick::number), "Number of the period.")
-      .def_property_readonly(
-          "state", [](const Step& step) { return SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)]; },
-          "\"free\", \"touching\", \"lift\", \"tilt\", \"maintain\", \"slipped\", \"let go\" or \"released\".")
-      .def_property_readonly(
-          "is_held", [](const Step& step) { return is_held(step.tick.state); }, "Whether a vessel is held.")
-      .def_property_readonly("vessel", &Step::vessel,
-                             "Name of the vessel that is touched, held or on its way back; None: there is none.")
-      .def_property_readonly(
+constexpr auto number = [](auto Tick::*member) { return [member](const Step& step) { return step.tick.*member; }; };
+constexpr auto triple = [](auto Tick::*member) { return [member](const Step& step) { return array_of(step.tick.*member); }; };
+
+// Forces, and how the hand holds.
+void bind_hold(py::class_<Step>& type) {
+  type.def_property_readonly(
           "arm_force", [](const Step& step) { return array_of(step.tick.wanted.arm); },
           "What the arm is to render, N, device frame, shape (3,). The caller limits it to what the gripper can do.")
       .def_property_readonly(
@@ -194,8 +183,25 @@ void bind_step(py::module_& module) {
       .def_property_readonly("closure", number(&Tick::closure), "Closure of the hand: 0 open, 1 closed.")
       .def_property_readonly("gap", number(&Tick::gap), "Gap of the hand, m.")
       .def_property_readonly("grasp_height", number(&Tick::grasp_height),
-                             "Height of the middle of the tips at the grasp, m, vessel's frame; NaN: nothing is held.")
-      .def_property_readonly("flow", number(&Tick::flow), "Over the held vessel's lip, m3/s.")
+                             "Height of the middle of the tips at the grasp, m, vessel's frame; NaN: nothing is held.");
+}
+
+void bind_step(py::module_& module) {
+  py::class_<Step> type(
+      module, "Step",
+      "One period of a live session: forces, states and the hand. Made by ``Session.step``.\n\n"
+      "It stays as it is when the session goes on. SI units. Forces of arm_force are in the device frame, places in the\n"
+      "world frame (+y up).");
+  type.def_property_readonly("tick", number(&Tick::number), "Number of the period.")
+      .def_property_readonly(
+          "state", [](const Step& step) { return SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)]; },
+          "\"free\", \"touching\", \"lift\", \"tilt\", \"maintain\", \"slipped\", \"let go\" or \"released\".")
+      .def_property_readonly(
+          "is_held", [](const Step& step) { return is_held(step.tick.state); }, "Whether a vessel is held.")
+      .def_property_readonly("vessel", &Step::vessel,
+                             "Name of the vessel that is touched, held or on its way back; None: there is none.");
+  bind_hold(type);
+  type.def_property_readonly("flow", number(&Tick::flow), "Over the held vessel's lip, m3/s.")
       .def_property_readonly(
           "volume", [](const Step& step) { return step.of_vessels(step.tick.volume); },
           "Liquid in each vessel, m3, in the order of scene.vessels.")

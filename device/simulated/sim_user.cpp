@@ -206,12 +206,23 @@ Vec3 SimUser::set_down_at() const noexcept {
   return place + Vec3(0, job().grip.height + traits_[Trait::height], 0);
 }
 
+// The phases in which jobs differ; a job without one skips it.
+void SimUser::plan_job() noexcept {
+  const bool shows = job().kind == SimJob::Kind::show, pours = job().kind == SimJob::Kind::pour;
+  const bool carries = job().kind == SimJob::Kind::carry;
+  lasts_ = 0;
+  if (phase_ == Phase::carry && pours) move(on_path(0), CARRY_TIME);
+  if (phase_ == Phase::carry && carries) move(set_down_at() + Vec3(0, LIFT, 0), CARRY_TIME);
+  if (phase_ == Phase::tilt && shows) tilt_to_ = SHOWN_TILT;
+  if (phase_ == Phase::tilt && !carries) lasts_ = shows ? TILT_TIME : LONGEST_POUR;
+  if (phase_ == Phase::maintain && shows) lasts_ = MAINTAIN_TIME;
+}
+
 // Where the phase ends, and how long it lasts.
 void SimUser::plan_motion() noexcept {
   const double open = live_.hand.scale * live_.hand.gap_open;
   const Vec3 taken = live_.vessels[job().vessel].home + Vec3(0, job().grip.height + traits_[Trait::height], 0);
   const double azimuth = traits_[Trait::azimuth];
-  const bool is_carried = job().kind == SimJob::Kind::carry;
   const Vec3 put = set_down_at();
   switch (phase_) {
     case Phase::reach:
@@ -236,21 +247,9 @@ void SimUser::plan_motion() noexcept {
       move(command_.middle + Vec3(0, lift(), 0), LIFT_TIME * lift() / LIFT);
       break;
     case Phase::carry:
-      if (job().kind == SimJob::Kind::pour)
-        move(on_path(0), CARRY_TIME);
-      else if (is_carried)
-        move(put + Vec3(0, LIFT, 0), CARRY_TIME);
-      else
-        lasts_ = 0;
-      break;
     case Phase::tilt:
-      lasts_ = TILT_TIME;
-      if (job().kind == SimJob::Kind::show) tilt_to_ = SHOWN_TILT;
-      if (job().kind == SimJob::Kind::pour) lasts_ = LONGEST_POUR;
-      if (is_carried) lasts_ = 0;
-      break;
     case Phase::maintain:
-      lasts_ = job().kind == SimJob::Kind::show ? MAINTAIN_TIME : 0;
+      plan_job();
       break;
     case Phase::upright:
       lasts_ = command_.tilt > 0 ? UPRIGHT_TIME : 0;

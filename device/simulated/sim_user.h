@@ -91,6 +91,7 @@ class SimUser {
   enum class Phase { reach, look, enter, close, settle, lift, carry, tilt, maintain, upright, back, lower, open, withdraw };
   void begin(Phase phase) noexcept;
   void plan_motion() noexcept;
+  void plan_job() noexcept;
   void fail() noexcept;
   void go_on(bool feels) noexcept;
   void next_grasp() noexcept;

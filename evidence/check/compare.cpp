@@ -491,6 +491,24 @@ double Comparer::search_floor(int field, std::size_t plane, std::size_t vessel, 
                                               : floor(0) + floor(0.5);  // more than of any term
 }
 
+// Enters by how much the forces of the side that calls a state unsafe exceed the limits of a safe one: infinitely, if they exceed none. With efforts
+// the hold is how far 1 / (1 + effort) is below that of an effort of 1; `effort` is the core's. Returns what exceeds its tolerance.
+double Comparer::note_unsafe(Comparison& safe, std::size_t vessel, const GripInput& grip, const GatheredPlanes& stricter,
+                             std::size_t i, std::size_t state, double effort, const Tolerance& tolerance) {
+  const bool by_effort = has_effort(scene_);
+  const auto force = [&](int field) { return stricter.real(stricter.fields.plane[field] + static_cast<int>(state), i); };
+  const double normal = force(FIELD_NORMAL_FORCE) - scene_.force.max;
+  const double hold = by_effort ? compared_form(FIELD_EFFORT, 1) - compared_form(FIELD_EFFORT, effort)
+                                : force(FIELD_HOLD_FORCE) - scene_.force.grip_strength;
+  double of_hold = by_effort ? tolerance(FIELD_WORST_EFFORT, 0, i) + EFFORT_SHARE / 4 : tolerance(FIELD_HOLD_FORCE, state, i);
+  // the effort of this state may move more than that of the worst one does: from less than 1 to infinite, at the limit of friction
+  if (by_effort && std::abs(hold) > of_hold) of_hold += 2 * moves_state(vessel, grip, state);
+  const double least_hold = by_effort ? -of_hold : 0;
+  const double by_normal = normal < 0 && !(hold > least_hold) ? std::numeric_limits<double>::infinity() : std::max(0.0, normal);
+  const double over = note_difference(safe, 1e3, vessel, i, by_normal, tolerance(FIELD_NORMAL_FORCE, state, i));
+  return std::max(over, note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), of_hold));
+}
+
 // A reported tilt is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.
 void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
                          const std::vector<char>& left_out, const Tolerance& tolerance) {
@@ -526,30 +544,17 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
       const double of_peak = tolerance(FIELD_FEEDBACK_FORCE, peak_a, i) + tolerance(FIELD_FEEDBACK_FORCE, peak_b, i);
       peak_over =
           std::max(peak_over, note_difference(peak, 1e3, vessel, i, std::max(0.0, feedback(peak_b) - feedback(peak_a)), of_peak));
-      const std::optional<std::size_t> reported_safe_a = reported(a, FIELD_SAFE_TILT),
-                                       reported_safe_b = reported(b, FIELD_SAFE_TILT);
-      if (!reported_safe_a || !reported_safe_b) {
+      const std::optional<std::size_t> safe_a = reported(a, FIELD_SAFE_TILT), safe_b = reported(b, FIELD_SAFE_TILT);
+      if (!safe_a || !safe_b) {
         safe_over = std::max(safe_over, note_difference(safe, 1e3, vessel, i, WRONG, 0));
         continue;
       }
-      const std::size_t safe_a = *reported_safe_a, safe_b = *reported_safe_b;
       if (safe_a == safe_b) continue;
       // the first state that one side calls unsafe and the other does not
-      const GatheredPlanes& stricter = safe_a < safe_b ? a : b;
-      const std::size_t state = first + std::min(safe_a, safe_b);
-      const double normal = stricter.real(fields.plane[FIELD_NORMAL_FORCE] + static_cast<int>(state), i) - scene_.force.max;
-      // with efforts, how far 1 / (1 + effort) is below that of an effort of 1
-      const double hold =
-          by_effort ? compared_form(FIELD_EFFORT, 1) - compared_form(FIELD_EFFORT, efforts.of(i, state))
-                    : stricter.real(fields.plane[FIELD_HOLD_FORCE] + static_cast<int>(state), i) - scene_.force.grip_strength;
-      // the stricter side's own forces must say so too; hold forces are the stricter side's own
-      double of_hold = by_effort ? tolerance(FIELD_WORST_EFFORT, 0, i) + EFFORT_SHARE / 4 : tolerance(FIELD_HOLD_FORCE, state, i);
-      // the effort of this state may move more than that of the worst one does: from less than 1 to infinite, at the limit of friction
-      if (by_effort && std::abs(hold) > of_hold) of_hold += 2 * moves_state(vessel, grips[i], state);
-      const double least_hold = by_effort ? -of_hold : 0;
-      const double by_normal = normal < 0 && !(hold > least_hold) ? std::numeric_limits<double>::infinity() : std::max(0.0, normal);
-      safe_over = std::max({safe_over, note_difference(safe, 1e3, vessel, i, by_normal, tolerance(FIELD_NORMAL_FORCE, state, i)),
-                            note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), of_hold)});
+      const GatheredPlanes& stricter = *safe_a < *safe_b ? a : b;
+      const std::size_t state = first + std::min(*safe_a, *safe_b);
+      const double effort = by_effort ? efforts.of(i, state) : 0;
+      safe_over = std::max(safe_over, note_unsafe(safe, vessel, grips[i], stricter, i, state, effort, tolerance));
     }
     count_outside(peak, vessel, i, peak_over);
     count_outside(safe, vessel, i, safe_over);

@@ -130,6 +130,8 @@ class Comparer {
                    const Tolerance& tolerance);
   void add_tilts(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
                  const std::vector<char>& left_out, const Tolerance& tolerance);
+  double note_unsafe(Comparison& safe, std::size_t vessel, const GripInput& grip, const GatheredPlanes& stricter, std::size_t i,
+                     std::size_t state, double effort, const Tolerance& tolerance);
   double rests(int field, std::size_t k) const;
   double effort_floor(int field, std::size_t vessel, double truth) const;
   double search_floor(int field, std::size_t plane, std::size_t vessel, const GatheredPlanes& truth, std::size_t grip) const;

@@ -91,6 +91,22 @@ double point_difference(const GatheredPlanes& a, const GatheredPlanes& b, int fi
   return worst;
 }
 
+using AllErrors = std::array<QuantityErrors, ERROR_QUANTITIES>;
+
+// The errors of the whole hand's numbers at grip `i` of vessel `v`; of those of states only with `has_states`.
+void add_hand_quantities(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t v, std::size_t i, bool has_states,
+                         AllErrors& errors) {
+  for (const HandQuantity& asked : HAND_QUANTITIES) {
+    const int field = field_of_variable(asked.field);
+    if (field < 0 || !a.fields.has(field) || !b.fields.has(field) || (asked.of_states && !has_states)) continue;
+    double error = plane_difference(a, b, field, 1, i, asked.of_states);
+    if (std::isnan(error)) continue;
+    const double exact = std::abs(b.real(b.fields.plane[field], i));
+    if (asked.of_states) error = exact > 0 ? error / exact : error;
+    errors[asked.quantity].add(asked.scale * error, v, i);
+  }
+}
+
 }  // namespace
 
 FieldSet reference_fields(const Scene& scene, bool brackets) {
@@ -132,7 +148,7 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
   const bool forces = comparable.states && !scene_.tilts.empty();
   const int states = static_cast<int>(scene_fills(scene_) * scene_.tilts.size());
   const int torque = scene_.force.torque == Torque::exact ? FIELD_EXACT_TORQUE : FIELD_TORQUE;
-  std::array<QuantityErrors, ERROR_QUANTITIES> errors;
+  AllErrors errors;
   std::uint64_t touch_flips = 0, feasible_flips = 0;
   std::vector<double> margins;  // of touch flips, m
   for (std::size_t v = 0; v < planes.size(); ++v) {
@@ -165,17 +181,8 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
         if ((flipped >> j & 1) != 0) margins.push_back(std::abs(exact - judged_contact_tolerance(scene_.hand)));
       }
       errors[ERROR_SEPARATION].add(1e6 * separation, v, i);
-      for (const HandQuantity& asked : HAND_QUANTITIES) {
-        const int field = field_of_variable(asked.field);
-        if (field < 0 || !a.fields.has(field) || !b.fields.has(field) || (asked.of_states && !forces)) continue;
-        // other points press, which is an outcome
-        if (asked.of_states && flipped != 0) continue;
-        double error = plane_difference(a, b, field, 1, i, asked.of_states);
-        if (std::isnan(error)) continue;
-        const double exact = std::abs(b.real(b.fields.plane[field], i));
-        if (asked.of_states) error = exact > 0 ? error / exact : error;
-        errors[asked.quantity].add(asked.scale * error, v, i);
-      }
+      // a flip means that other points press, which is an outcome
+      add_hand_quantities(a, b, v, i, forces && flipped == 0, errors);
     }
   }
   for (int q = 0; q < ERROR_QUANTITIES; ++q) row.errors[q] = error_figures(errors[q].values, errors[q].where);

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 
 #include "base/text/error.h"
@@ -56,64 +57,71 @@ std::string safe_tilt_text(const BestGrip& grip) {
   return std::isnan(grip.safe_tilt) ? shown_number(grip.safe_tilt, 0) : range_text(degrees(grip.safe_tilt), grip.is_safe_to_end);
 }
 
-void write_table(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
-  const Plan& plan = source.plan;
-  const bool has_tilts = !source.scene.tilts.empty();
-  std::vector<std::string> columns{"rank", "score", "height (mm)"};
-  const auto axis_column = [&](int place, const char* title) {
-    if (plan.varies(place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1)) columns.push_back(title);
+using GripText = std::function<std::string(const BestGrip&)>;
+// A column of the table, and a grip's cell in it.
+struct GripColumn {
+  std::string title;
+  GripText cell;
+};
+using GripColumns = std::vector<GripColumn>;
+
+// The axes that the plan varies.
+void add_axes(const Plan& plan, GripColumns& columns) {
+  const auto add = [&](int place, const char* title, const GripText& cell) {
+    if (plan.varies(place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1)) columns.push_back({title, cell});
   };
-  axis_column(PLACE_ROLL, "roll (°)");
-  axis_column(PLACE_OBLIQUITY, "obliquity (°)");
-  axis_column(PLACE_AZIMUTH, "azimuth (°)");
-  axis_column(PLACE_OFFSET, "offset (mm)");
-  axis_column(PLACE_HAND_SCALE, "hand scale");
-  if (best.is_whole) {
-    columns.insert(columns.end(), {"fingers", "points", "depth (mm)", "closure", "gap (mm)"});
-    if (has_tilts) {
-      columns.insert(columns.end(), {"peak force (N)", "at tilt (°)", "hold force (N)", "safe tilt (°)"});
-    } else {
-      columns.push_back("antipodal");
-    }
+  add(PLACE_ROLL, "roll (°)", [](const BestGrip& b) { return shown_number(degrees(b.grip.roll), 1); });
+  add(PLACE_OBLIQUITY, "obliquity (°)", [](const BestGrip& b) { return shown_number(degrees(b.grip.obliquity), 1); });
+  add(PLACE_AZIMUTH, "azimuth (°)", [](const BestGrip& b) { return shown_number(degrees(b.grip.azimuth), 1); });
+  add(PLACE_OFFSET, "offset (mm)", [](const BestGrip& b) { return shown_number(b.grip.offset * 1e3, 1); });
+  add(PLACE_HAND_SCALE, "hand scale", [](const BestGrip& b) { return shown_number(b.grip.hand_scale, 3); });
+}
+
+// What the core computed of whole grips.
+void add_results(bool has_tilts, GripColumns& columns) {
+  const auto add = [&](const char* title, const GripText& cell) { columns.push_back({title, cell}); };
+  add("fingers", [](const BestGrip& b) { return std::to_string(b.fingers_used); });
+  add("points", [](const BestGrip& b) { return std::to_string(b.points_touching); });
+  add("depth (mm)", [](const BestGrip& b) { return shown_number(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1); });
+  add("closure", [](const BestGrip& b) { return shown_number(b.closure, 2); });
+  add("gap (mm)", [](const BestGrip& b) { return shown_number(b.gap * 1e3, 1); });
+  if (!has_tilts) return add("antipodal", [](const BestGrip& b) { return std::string(b.antipodal ? "yes" : "no"); });
+  add("peak force (N)", [](const BestGrip& b) { return shown_number(b.peak_force, 2); });
+  add("at tilt (°)", [](const BestGrip& b) { return plain_number(degrees(b.peak_tilt)); });
+  add("hold force (N)", [](const BestGrip& b) { return shown_number(b.largest_hold, 1); });
+  add("safe tilt (°)", safe_tilt_text);
+}
+
+GripColumns columns_of(const ReportSource& source, const ReportedGrips& best) {
+  const Plan& plan = source.plan;
+  GripColumns columns{{"rank", [](const BestGrip& b) { return std::to_string(b.rank); }},
+                      {"score", [](const BestGrip& b) { return shown_number(b.score, 3); }},
+                      {"height (mm)", [](const BestGrip& b) { return shown_number(b.grip.height * 1e3, 1); }}};
+  add_axes(plan, columns);
+  if (best.is_whole) add_results(!source.scene.tilts.empty(), columns);
+  if (has_refined(best)) {
+    columns.push_back({"refined score", [](const BestGrip& b) { return shown_number(b.refined_score, 3); }});
+    columns.push_back({"refined grip", [&](const BestGrip& b) { return is_refined(b) ? grip_text(plan, b.refined) : ""; }});
   }
-  const bool reports_refined = has_refined(best);
-  if (reports_refined) columns.insert(columns.end(), {"refined score", "refined grip"});
-  const bool reports_robust = has_robust(best);
-  if (reports_robust) columns.insert(columns.end(), {"robust low", "robust mean", "share that holds"});
+  if (has_robust(best)) {
+    columns.push_back({"robust low", [](const BestGrip& b) { return shown_number(b.robust.low, 3); }});
+    columns.push_back({"robust mean", [](const BestGrip& b) { return shown_number(b.robust.mean, 3); }});
+    columns.push_back({"share that holds", [](const BestGrip& b) { return shown_number(b.robust.share, 2); }});
+  }
+  return columns;
+}
+
+void write_table(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
+  const GripColumns columns = columns_of(source, best);
+  std::vector<std::string> texts;  // of a row
+  for (const GripColumn& column : columns) texts.push_back(column.title);
   HtmlTable table(html,
                   fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : counted(best.grips.size(), "grip"),
-                              list_name(source.scene, plan, list)),
-                  columns);
-  for (std::size_t rank = 0; rank < best.grips.size(); ++rank) {
-    const BestGrip& b = best.grips[rank];
-    std::vector<std::string> cells{std::to_string(b.rank), shown_number(b.score, 3), shown_number(b.grip.height * 1e3, 1)};
-    const auto axis_cell = [&](int place, double value, int digits) {
-      if (plan.varies(place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1))
-        cells.push_back(shown_number(value, digits));
-    };
-    axis_cell(PLACE_ROLL, degrees(b.grip.roll), 1);
-    axis_cell(PLACE_OBLIQUITY, degrees(b.grip.obliquity), 1);
-    axis_cell(PLACE_AZIMUTH, degrees(b.grip.azimuth), 1);
-    axis_cell(PLACE_OFFSET, b.grip.offset * 1e3, 1);
-    axis_cell(PLACE_HAND_SCALE, b.grip.hand_scale, 3);
-    if (best.is_whole) {
-      cells.insert(cells.end(), {std::to_string(b.fingers_used), std::to_string(b.points_touching),
-                                 shown_number(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1), shown_number(b.closure, 2),
-                                 shown_number(b.gap * 1e3, 1)});
-      if (has_tilts) {
-        cells.insert(cells.end(), {shown_number(b.peak_force, 2), plain_number(degrees(b.peak_tilt)),
-                                   shown_number(b.largest_hold, 1), safe_tilt_text(b)});
-      } else {
-        cells.push_back(b.antipodal ? "yes" : "no");
-      }
-    }
-    if (reports_refined) {
-      cells.push_back(shown_number(b.refined_score, 3));
-      cells.push_back(is_refined(b) ? grip_text(plan, b.refined) : "");
-    }
-    if (reports_robust)
-      cells.insert(cells.end(), {shown_number(b.robust.low, 3), shown_number(b.robust.mean, 3), shown_number(b.robust.share, 2)});
-    table.row(cells);
+                              list_name(source.scene, source.plan, list)),
+                  texts);
+  for (const BestGrip& grip : best.grips) {
+    std::ranges::transform(columns, texts.begin(), [&](const GripColumn& column) { return column.cell(grip); });
+    table.row(texts);
   }
   table.end();
 }
