@@ -155,6 +155,31 @@ TEST(Rigged, HandIsTheSameInEveryPose) {
 
 // ---- single precision ----
 
+double furthest_apart(const GripResult& a, const GripResult& b) {
+  double largest = 0;
+  for (std::size_t j = 0; j < JOINT_COUNT; ++j)
+    largest = std::max(largest, glm::distance(to_vec3(a.posed[j]), to_vec3(b.posed[j])));
+  return largest;
+}
+
+// How far the pose moves for 1e-6 m in height and offset and 1e-5 rad in the angles; 1 m if the grip becomes infeasible.
+double moves_of_pose(const Evaluator& evaluator, const GripInput& grip, const GripResult& exact) {
+  double moves = 0;
+  for (const double sign : {-1.0, 1.0}) {
+    for (int axis = 0; axis < 4; ++axis) {
+      GripInput beside = grip;
+      (axis == 0   ? beside.height
+       : axis == 1 ? beside.offset
+       : axis == 2 ? beside.obliquity
+                   : beside.roll) += sign * (axis < 2 ? 1e-6 : 1e-5);
+      GripResult moved;
+      evaluator.grip(0, beside, moved);
+      moves = std::max(moves, moved.reason == Reason::none ? furthest_apart(exact, moved) : 1.0);
+    }
+  }
+  return moves;
+}
+
 TEST(Projection, FloatAgreesWithDouble) {
   // A float distance is good to 1e-8 m and tips stop within 1e-6 m, so an answer may differ by what an input moved by as much does
   // to it. That is measured in double: how far the pose moves for 1e-6 m in height and offset and 1e-5 rad in the angles, the order
@@ -177,30 +202,12 @@ TEST(Projection, FloatAgreesWithDouble) {
       }
       if (exact.reason != Reason::none) continue;
       ++feasible;
-      const auto apart = [](const GripResult& a, const GripResult& b) {
-        double largest = 0;
-        for (std::size_t j = 0; j < JOINT_COUNT; ++j)
-          largest = std::max(largest, glm::distance(to_vec3(a.posed[j]), to_vec3(b.posed[j])));
-        return largest;
-      };
-      double moves = 0;
-      for (const double sign : {-1.0, 1.0}) {
-        for (int axis = 0; axis < 4; ++axis) {
-          GripInput beside = grip;
-          (axis == 0   ? beside.height
-           : axis == 1 ? beside.offset
-           : axis == 2 ? beside.obliquity
-                       : beside.roll) += sign * (axis < 2 ? 1e-6 : 1e-5);
-          GripResult moved;
-          full->grip(0, beside, moved);
-          moves = std::max(moves, moved.reason == Reason::none ? apart(exact, moved) : 1.0);
-        }
-      }
+      const double moves = moves_of_pose(*full, grip, exact);
       if (moves > 1e-4 || exact.grazing) {  // ill-conditioned: a touch at a grazing angle, or two that are nearly one
         ++left_out;
         continue;
       }
-      const double off = apart(exact, rough);
+      const double off = furthest_apart(exact, rough);
       worst = std::max(worst, off);
       // 1e-5 m: ten stop tolerances for the chain of touches; ten times what the inputs' own error does
       EXPECT_LT(off, 1e-5 + 10 * moves) << vessel.name << ", moves " << moves;

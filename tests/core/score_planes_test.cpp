@@ -48,10 +48,7 @@ void expect_same_plane_value(double a, double b, const std::string& where) {
   EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << where << ": " << a << " and " << b;
 }
 
-void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::size_t v, const GripInput& grip, const Planes& p,
-                           std::size_t i, const std::string& where) {
-  GripResult r;
-  evaluator.grip(v, grip, r);
+void expect_bits(const GripResult& r, const Planes& p, std::size_t i, const std::string& where) {
   EXPECT_EQ(p.uint(FIELD_STATUS, i), r.status) << where;
   EXPECT_EQ(r.status & STATUS_REASON_MASK, static_cast<std::uint32_t>(r.reason)) << where;
   EXPECT_EQ((r.status & STATUS_PLAUSIBLE) != 0, r.plausible) << where;
@@ -62,25 +59,25 @@ void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::
   EXPECT_EQ(p.uint(FIELD_FINGER_MASK, i), r.finger_mask) << where;
   EXPECT_EQ(p.uint(FIELD_INNER_MASK, i), r.inner_mask) << where;
   EXPECT_EQ(p.uint(FIELD_USED_MASK, i), r.used_mask) << where;
+}
 
-  const std::size_t fills = scene_fills(scene), tilts = scene.tilts.size();
-  if (r.reason != Reason::none) {
-    // the score and its terms are 0; gap and midpoint are there from too_wide on; nothing else is
-    for (int field = 0; field < REAL_FIELDS; ++field) {
-      const bool scored = field == FIELD_SCORE || field == FIELD_TERMS;
-      const bool reached = r.reason >= Reason::too_wide &&
-                           (field == FIELD_T_INDEX || field == FIELD_T_THUMB || field == FIELD_GAP || field == FIELD_MIDPOINT);
-      for (int plane = 0; plane < field_planes(field, scene); ++plane) {
-        if (scored) {
-          EXPECT_EQ(p.real(field, plane, i), 0) << where;
-        } else {
-          EXPECT_EQ(std::isnan(p.real(field, plane, i)), !reached) << where << " field " << field;
-        }
+// The score and its terms of an infeasible grip are 0; gap and midpoint are there from too_wide on; nothing else is.
+void expect_infeasible(const Scene& scene, const GripResult& r, const Planes& p, std::size_t i, const std::string& where) {
+  for (int field = 0; field < REAL_FIELDS; ++field) {
+    const bool scored = field == FIELD_SCORE || field == FIELD_TERMS;
+    const bool reached = r.reason >= Reason::too_wide &&
+                         (field == FIELD_T_INDEX || field == FIELD_T_THUMB || field == FIELD_GAP || field == FIELD_MIDPOINT);
+    for (int plane = 0; plane < field_planes(field, scene); ++plane) {
+      if (scored) {
+        EXPECT_EQ(p.real(field, plane, i), 0) << where;
+      } else {
+        EXPECT_EQ(std::isnan(p.real(field, plane, i)), !reached) << where << " field " << field;
       }
     }
-    if (r.reason < Reason::too_wide) return;
   }
+}
 
+void expect_gap(const GripInput& grip, const GripResult& r, const Planes& p, std::size_t i, const std::string& where) {
   // t along the line from o: both ends of the gap, and the midpoint between them
   const double t_index = p.real(FIELD_T_INDEX, 0, i), t_thumb = p.real(FIELD_T_THUMB, 0, i);
   EXPECT_NEAR(t_index - t_thumb, r.gap, 1e-15) << where;  // m: one rounding
@@ -91,7 +88,9 @@ void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::
 
   expect_same_plane_value(p.real(FIELD_GAP, 0, i), r.gap, where + " gap");
   for (int k = 0; k < 3; ++k) expect_same_plane_value(p.real(FIELD_MIDPOINT, k, i), r.midpoint[k], where + " midpoint");
-  if (r.reason != Reason::none) return;
+}
+
+void expect_hand(const Scene& scene, const GripResult& r, const Planes& p, std::size_t i, const std::string& where) {
   expect_same_plane_value(p.real(FIELD_CLOSURE, 0, i), r.closure, where + " closure");
   expect_same_plane_value(p.real(FIELD_PHALANX_DEPTH, 0, i), r.phalanx_depth, where + " phalanx depth");
   expect_same_plane_value(p.real(FIELD_PALM_DEPTH, 0, i), r.palm_depth, where + " palm depth");
@@ -110,7 +109,29 @@ void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::
     }
     expect_same_plane_value(p.real(FIELD_SEPARATION, j, i), r.separation[j], where + " separation");
   }
+}
 
+void expect_state(const StateResult& s, const Planes& p, int state_plane, std::size_t i, const std::string& where) {
+  expect_same_plane_value(p.real(FIELD_PIVOT_LENGTH, state_plane, i), s.pivot_length, where + " pivot length");
+  expect_same_plane_value(p.real(FIELD_TORQUE, state_plane, i), s.torque, where + " torque");
+  expect_same_plane_value(p.real(FIELD_EXACT_TORQUE, state_plane, i), s.exact_torque, where + " exact torque");
+  expect_same_plane_value(p.real(FIELD_NORMAL_FORCE, state_plane, i), s.normal_force, where + " normal force");
+  expect_same_plane_value(p.real(FIELD_FEEDBACK_FORCE, state_plane, i), s.feedback_force, where + " feedback force");
+  expect_same_plane_value(p.real(FIELD_HOLD_FORCE, state_plane, i), s.hold_force, where + " hold force");
+}
+
+void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::size_t v, const GripInput& grip, const Planes& p,
+                           std::size_t i, const std::string& where) {
+  GripResult r;
+  evaluator.grip(v, grip, r);
+  expect_bits(r, p, i, where);
+  if (r.reason != Reason::none) expect_infeasible(scene, r, p, i, where);
+  if (r.reason != Reason::none && r.reason < Reason::too_wide) return;
+  expect_gap(grip, r, p, i, where);
+  if (r.reason != Reason::none) return;
+  expect_hand(scene, r, p, i, where);
+
+  const std::size_t fills = scene_fills(scene), tilts = scene.tilts.size();
   const GripScore score = evaluator.score(v, grip, r);
   expect_same_plane_value(p.real(FIELD_SCORE, 0, i), score.score, where + " score");
   const std::array<double, 6> terms{score.terms.fingers, score.terms.contacts, score.terms.depth,
@@ -125,15 +146,8 @@ void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::
     expect_same_plane_value(p.real(FIELD_LARGEST_HOLD, plane, i), score.fills[f].largest_hold, where + " largest hold");
     expect_same_plane_value(p.real(FIELD_SAFE_TILT, plane, i), score.fills[f].safe_tilt, where + " safe tilt");
     for (std::size_t t = 0; t < tilts; ++t) {
-      const int state_plane = static_cast<int>(f * tilts + t);
       const LiquidResult liquid = scene.liquid ? evaluator.liquid(v, scene.liquid->fills[f], scene.tilts[t]) : LiquidResult{};
-      const StateResult s = evaluator.state(v, grip, r, liquid, scene.tilts[t]);
-      expect_same_plane_value(p.real(FIELD_PIVOT_LENGTH, state_plane, i), s.pivot_length, where + " pivot length");
-      expect_same_plane_value(p.real(FIELD_TORQUE, state_plane, i), s.torque, where + " torque");
-      expect_same_plane_value(p.real(FIELD_EXACT_TORQUE, state_plane, i), s.exact_torque, where + " exact torque");
-      expect_same_plane_value(p.real(FIELD_NORMAL_FORCE, state_plane, i), s.normal_force, where + " normal force");
-      expect_same_plane_value(p.real(FIELD_FEEDBACK_FORCE, state_plane, i), s.feedback_force, where + " feedback force");
-      expect_same_plane_value(p.real(FIELD_HOLD_FORCE, state_plane, i), s.hold_force, where + " hold force");
+      expect_state(evaluator.state(v, grip, r, liquid, scene.tilts[t]), p, static_cast<int>(f * tilts + t), i, where);
     }
   }
 }

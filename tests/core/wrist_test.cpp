@@ -136,6 +136,30 @@ core_f64::Mat3 frame_of(const core_f64::Vec3& a, const core_f64::Vec3& b, const 
   return {along, glm::cross(up, along), up};
 }
 
+struct NearestArm {
+  double miss = 1e9;   // of the upper arm's length, m, or of the forearm's direction
+  bool leans = false;  // the arm is too short and straight, as the holder leans
+};
+
+// The arm that fits a forearm at one of the azimuths of the shoulder.
+NearestArm nearest_arm(const Scene& scene, const GripInput& grip, const core_f64::Vec3& wrist, const core_f64::Vec3& forearm) {
+  const ArmData& arm = *scene.arm;
+  const core_f64::Vec3 elbow = wrist - arm.forearm * forearm;
+  NearestArm nearest;
+  const int azimuths = arm_azimuths(scene, scene.vessels[0]);
+  for (int k = 0; k < azimuths; ++k) {
+    const double turn = 2 * PI * k / azimuths - (azimuths > 1 ? grip.azimuth : 0);
+    const core_f64::Vec3 shoulder(std::cos(turn) * arm.shoulder[0] - std::sin(turn) * arm.shoulder[2], arm.shoulder[1],
+                                  std::sin(turn) * arm.shoulder[0] + std::cos(turn) * arm.shoulder[2]);
+    const double reach = glm::length(wrist - shoulder);
+    const bool is_short = reach > arm.upper_arm + arm.forearm;
+    const double miss =
+        is_short ? glm::length((wrist - shoulder) / reach - forearm) : std::abs(glm::length(elbow - shoulder) - arm.upper_arm);
+    if (miss < nearest.miss) nearest = {miss, is_short};
+  }
+  return nearest;
+}
+
 // The angles of a grip belong to an arm of the scene: put together from them, forearm and elbow are an upper arm away from the shoulder,
 // which stands at one of the azimuths, and above the table.
 TEST(Wrist, AnglesBelongToAnArmThatReachesTheHand) {
@@ -176,21 +200,8 @@ TEST(Wrist, AnglesBelongToAnArmThatReachesTheHand) {
       const core_f64::Vec3 forearm =
           hand * core_f64::Vec3(-std::sin(ulnar), std::cos(ulnar) * std::sin(flexion), -std::cos(ulnar) * std::cos(flexion));
       const core_f64::Vec3 elbow = wrist - arm.forearm * forearm;
-      // one of the azimuths has such an arm; one that is too short is straight, as the holder leans
-      double nearest = 1e9;
-      bool leans = false;
-      const int azimuths = arm_azimuths(scene, scene.vessels[0]);
-      for (int k = 0; k < azimuths; ++k) {
-        const double turn = 2 * PI * k / azimuths - (azimuths > 1 ? grip.azimuth : 0);
-        const core_f64::Vec3 shoulder(std::cos(turn) * arm.shoulder[0] - std::sin(turn) * arm.shoulder[2], arm.shoulder[1],
-                                      std::sin(turn) * arm.shoulder[0] + std::cos(turn) * arm.shoulder[2]);
-        const double reach = glm::length(wrist - shoulder);
-        const bool is_short = reach > arm.upper_arm + arm.forearm;
-        const double miss =
-            is_short ? glm::length((wrist - shoulder) / reach - forearm) : std::abs(glm::length(elbow - shoulder) - arm.upper_arm);
-        if (miss < nearest) nearest = miss, leans = is_short;
-      }
-      EXPECT_NEAR(nearest, 0, 1e-9);
+      const auto [miss, leans] = nearest_arm(scene, grip, wrist, forearm);
+      EXPECT_NEAR(miss, 0, 1e-9);
       straight += leans ? 1 : 0;
       if (!result.beyond_wrist) {
         EXPECT_GT(elbow.y - arm.elbow_radius, scene.table->clearance - 1e-9);

@@ -68,6 +68,95 @@ bool is_same_push(double a, double b, double weight, Precision precision) {
 // least as its inverse where friction is what limits a hold.
 bool is_same_friction(double a, double b) { return a == b || std::abs(a - b) <= 1e-3 + 2.4e-3 * std::max(a, b); }
 
+// A grip's numbers by the device and by the core.
+struct Sides {
+  const Scene& scene;
+  const FieldSet& fields;
+  const GatheredPlanes &device, &truth;
+  std::size_t i;
+  double on_device(int field, int k = 0) const { return device.real(fields.plane[field] + k, i); }
+  double on_core(int field, int k = 0) const { return truth.real(fields.plane[field] + k, i); }
+};
+
+// Whether the first tilt that one of them calls unsafe is so by another effort than 1, at any fill.
+bool differ_in_safe_tilt(const Sides& grip) {
+  const std::vector<double>& tilts = grip.scene.tilts;
+  bool do_differ = false;
+  for (int fill = 0; fill < static_cast<int>(scene_fills(grip.scene)); ++fill) {
+    const double a = grip.on_device(FIELD_SAFE_TILT, fill), b = grip.on_core(FIELD_SAFE_TILT, fill);
+    if ((std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-6) continue;
+    const double lower = std::isnan(a) || std::isnan(b) ? -1 : std::min(a, b);
+    const auto tilt = std::upper_bound(tilts.begin(), tilts.end(), lower + 1e-6) - tilts.begin();
+    const int state = fill * static_cast<int>(tilts.size()) + static_cast<int>(tilt);
+    do_differ = do_differ || !is_near_one(grip.on_core(FIELD_EFFORT, state));
+  }
+  return do_differ;
+}
+
+// The state that the device names as the worst; -1, and a failure, if it names none of the scene's.
+int named_state(const Sides& grip, const std::string& which) {
+  const std::vector<double>& tilts = grip.scene.tilts;
+  const double named = grip.on_device(FIELD_WORST_EFFORT_TILT), fraction = grip.on_device(FIELD_WORST_EFFORT_FILL);
+  const auto tilt = std::find_if(tilts.begin(), tilts.end(), [&](double t) { return std::abs(t - named) < 1e-6; });
+  if (tilt == tilts.end()) {
+    ADD_FAILURE() << which << ": " << named;
+    return -1;
+  }
+  const std::vector<double> fills = grip.scene.liquid ? grip.scene.liquid->fills : std::vector<double>{fraction};
+  const auto fill = std::find_if(fills.begin(), fills.end(), [&](double f) { return std::abs(f - fraction) < 1e-6; });
+  if (fill == fills.end()) {
+    ADD_FAILURE() << which << ": fill " << fraction;
+    return -1;
+  }
+  return static_cast<int>(fill - fills.begin()) * static_cast<int>(tilts.size()) + static_cast<int>(tilt - tilts.begin());
+}
+
+// Each side says itself whether the vessel is held.
+void expect_held_as_efforts_say(const Sides& grip, const std::string& which) {
+  for (const GatheredPlanes* side : {&grip.device, &grip.truth}) {
+    const auto real = [&](int field) { return side->real(grip.fields.plane[field], grip.i); };
+    const bool is_not_held = (side->uint(FIELD_STATUS, grip.i) & STATUS_NOT_HELD) != 0;
+    EXPECT_EQ(is_not_held, real(FIELD_WORST_EFFORT) > 1) << which;  // not of NaN
+    if (is_plausible(side->uint(FIELD_STATUS, grip.i))) {
+      EXPECT_EQ(is_not_held, real(FIELD_SCORE) == 0) << which;
+    }
+  }
+}
+
+void compare_grip(const Sides& grip, double weight, Precision precision, const std::string& which, Compared& all) {
+  // another contact is another question; the difference of two efforts shows which side of 1 they lie on
+  const std::uint32_t other = grip.device.uint(FIELD_STATUS, grip.i) ^ grip.truth.uint(FIELD_STATUS, grip.i);
+  if ((other & ~std::uint32_t(STATUS_NOT_HELD)) != 0) return;
+  if (grip.device.uint(FIELD_TOUCH_MASK, grip.i) != grip.truth.uint(FIELD_TOUCH_MASK, grip.i)) return;
+  const double worst = grip.on_core(FIELD_WORST_EFFORT);
+  bool is_outside = false;
+  if (!std::isnan(worst)) {
+    is_outside = !is_same_push(grip.on_device(FIELD_PUSH), grip.on_core(FIELD_PUSH), weight, precision) ||
+                 !is_same_friction(grip.on_device(FIELD_FRICTION_NEEDED), grip.on_core(FIELD_FRICTION_NEEDED));
+  }
+  for (const int field : {FIELD_WORST_EFFORT, FIELD_TIPS_WORST_EFFORT}) {
+    const double a = grip.on_device(field), b = grip.on_core(field);
+    EXPECT_EQ(std::isnan(a), std::isnan(b)) << which;
+    if (std::isnan(a) || std::isnan(b)) continue;
+    const double difference = std::abs(term_of(a) - term_of(b));
+    is_outside = is_outside || difference > term_tolerance(precision, b);
+    all.worst = std::max(all.worst, difference);
+  }
+  is_outside = differ_in_safe_tilt(grip) || is_outside;
+  expect_held_as_efforts_say(grip, which);
+  if (std::isnan(worst)) return;
+  // both name a state, whose effort is the worst but for what they pass by
+  const int state = named_state(grip, which);
+  if (state < 0) return;
+  is_outside =
+      is_outside || std::abs(term_of(grip.on_core(FIELD_EFFORT, state)) - term_of(worst)) > term_tolerance(precision, worst);
+  EXPECT_NEAR(grip.on_device(FIELD_TERMS, 5), term_of(grip.on_device(FIELD_WORST_EFFORT)), 1e-6) << which;
+  ++all.grips;
+  all.outside += is_outside ? 1 : 0;
+  all.infinite += std::isinf(worst) ? 1 : 0;
+  all.beyond += worst > 1 ? 1 : 0;
+}
+
 Compared compare_efforts(const Scene& scene, Precision precision, int count, const std::string& name) {
   const FieldSet fields = make_field_set(KEPT, scene);
   const auto backend = backend_of(scene, fields, precision);
@@ -76,67 +165,10 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const auto grips = grips_of(scene, v, count);
     const GatheredPlanes device = gather(*backend, v, grips), truth = gather(*core, fields, v, grips);
+    const double weight = core->constants(v).largest_mass * scene.gravity;
     for (std::size_t i = 0; i < grips.size(); ++i) {
       const std::string which = name + " vessel " + std::to_string(v) + " grip " + std::to_string(i);
-      // another contact is another question; the difference of two efforts shows which side of 1 they lie on
-      if (((device.uint(FIELD_STATUS, i) ^ truth.uint(FIELD_STATUS, i)) & ~std::uint32_t(STATUS_NOT_HELD)) != 0) continue;
-      if (device.uint(FIELD_TOUCH_MASK, i) != truth.uint(FIELD_TOUCH_MASK, i)) continue;
-      const auto real = [&](const GatheredPlanes& planes, int field, int k = 0) { return planes.real(fields.plane[field] + k, i); };
-      const double worst = real(truth, FIELD_WORST_EFFORT);
-      bool is_outside = false;
-      const double weight = core->constants(v).largest_mass * scene.gravity;
-      if (!std::isnan(worst)) {
-        const double push = real(device, FIELD_PUSH), true_push = real(truth, FIELD_PUSH);
-        const double friction = real(device, FIELD_FRICTION_NEEDED), true_friction = real(truth, FIELD_FRICTION_NEEDED);
-        is_outside = !is_same_push(push, true_push, weight, precision) || !is_same_friction(friction, true_friction);
-      }
-      for (const int field : {FIELD_WORST_EFFORT, FIELD_TIPS_WORST_EFFORT}) {
-        const double a = real(device, field), b = real(truth, field);
-        EXPECT_EQ(std::isnan(a), std::isnan(b)) << which;
-        if (std::isnan(a) || std::isnan(b)) continue;
-        const double difference = std::abs(term_of(a) - term_of(b));
-        is_outside = is_outside || difference > term_tolerance(precision, b);
-        all.worst = std::max(all.worst, difference);
-      }
-      for (int fill = 0; fill < static_cast<int>(scene_fills(scene)); ++fill) {
-        const double a = real(device, FIELD_SAFE_TILT, fill), b = real(truth, FIELD_SAFE_TILT, fill);
-        if ((std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-6) continue;
-        // the first tilt that one of them calls unsafe
-        const double lower = std::isnan(a) || std::isnan(b) ? -1 : std::min(a, b);
-        const auto tilt = std::upper_bound(scene.tilts.begin(), scene.tilts.end(), lower + 1e-6) - scene.tilts.begin();
-        const int state = fill * static_cast<int>(scene.tilts.size()) + static_cast<int>(tilt);
-        is_outside = is_outside || !is_near_one(real(truth, FIELD_EFFORT, state));
-      }
-      for (const GatheredPlanes* side : {&device, &truth}) {
-        const bool is_not_held = (side->uint(FIELD_STATUS, i) & STATUS_NOT_HELD) != 0;
-        EXPECT_EQ(is_not_held, real(*side, FIELD_WORST_EFFORT) > 1) << which;  // not of NaN
-        if (is_plausible(side->uint(FIELD_STATUS, i))) {
-          EXPECT_EQ(is_not_held, real(*side, FIELD_SCORE) == 0) << which;
-        }
-      }
-      if (std::isnan(worst)) continue;
-      // both name a state, whose effort is the worst but for what they pass by
-      const double named = real(device, FIELD_WORST_EFFORT_TILT), fraction = real(device, FIELD_WORST_EFFORT_FILL);
-      const auto tilt = std::find_if(scene.tilts.begin(), scene.tilts.end(), [&](double t) { return std::abs(t - named) < 1e-6; });
-      if (tilt == scene.tilts.end()) {
-        ADD_FAILURE() << which << ": " << named;
-        continue;
-      }
-      const std::vector<double> fills = scene.liquid ? scene.liquid->fills : std::vector<double>{fraction};
-      const auto fill = std::find_if(fills.begin(), fills.end(), [&](double f) { return std::abs(f - fraction) < 1e-6; });
-      if (fill == fills.end()) {
-        ADD_FAILURE() << which << ": fill " << fraction;
-        continue;
-      }
-      const int state = static_cast<int>(fill - fills.begin()) * static_cast<int>(scene.tilts.size()) +
-                        static_cast<int>(tilt - scene.tilts.begin());
-      is_outside =
-          is_outside || std::abs(term_of(real(truth, FIELD_EFFORT, state)) - term_of(worst)) > term_tolerance(precision, worst);
-      EXPECT_NEAR(real(device, FIELD_TERMS, 5), term_of(real(device, FIELD_WORST_EFFORT)), 1e-6) << which;
-      ++all.grips;
-      all.outside += is_outside ? 1 : 0;
-      all.infinite += std::isinf(worst) ? 1 : 0;
-      all.beyond += worst > 1 ? 1 : 0;
+      compare_grip({scene, fields, device, truth, i}, weight, precision, which, all);
     }
   }
   testing::Test::RecordProperty(name, std::to_string(all.grips) + " grips, " + std::to_string(all.worst));

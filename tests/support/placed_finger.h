@@ -120,15 +120,18 @@ struct FingerRest {
   double left_at = 0;  // closure at which it left the trajectory
 };
 
+// Of PIP, DIP and tip.
+inline core_f64::Vec3 watched_separations(const Evaluator& evaluator, const Placed& finger, const core_f64::Vec3& angles) {
+  const auto points = watched_points(finger, angles);
+  core_f64::Vec3 result{};
+  for (std::size_t k = 0; k < 3; ++k)
+    result[static_cast<int>(k)] = evaluator.distance(0, to_triple(points[k])) - finger.radius[k + 2];
+  return result;
+}
+
 inline FingerRest simulate(const Evaluator& evaluator, const HandData& hand, const Placed& finger, double closure) {
   FingerRest rest;
-  const auto separations = [&](const core_f64::Vec3& angles) {
-    const auto points = watched_points(finger, angles);
-    core_f64::Vec3 result{};
-    for (std::size_t k = 0; k < 3; ++k)
-      result[static_cast<int>(k)] = evaluator.distance(0, to_triple(points[k])) - finger.radius[k + 2];
-    return result;
-  };
+  const auto separations = [&](const core_f64::Vec3& angles) { return watched_separations(evaluator, finger, angles); };
   const auto least = [&](const core_f64::Vec3& s, int from) {
     double result = s[2];
     for (int k = from; k < 3; ++k) result = std::min(result, s[k]);

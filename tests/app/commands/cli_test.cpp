@@ -55,8 +55,13 @@ TEST(CommandLine, ListsTheShippedScenes) {
   EXPECT_EQ(std::count(scenes.output.begin(), scenes.output.end(), '\n'), 4);
 }
 
-TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
-  const std::vector<std::pair<std::string, std::string>> cases{
+// Arguments, and what the one line says, with code 2.
+void expect_refusals(const std::vector<std::pair<std::string, std::string>>& refusals) {
+  for (const auto& [arguments, gist] : refusals) expect_error(arguments, 2, gist);
+}
+
+TEST(CommandLine, RefusesWrongCommandsAndSweeps) {
+  expect_refusals({
       {"", "the command is missing; allowed: sweep, merge, rank, compare, report, grip, trials, study, check, "},
       {"", ", scenes or help; see wholehand --help"},
       {"swep",
@@ -93,6 +98,11 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"sweep /", "'/' is a directory"},
       {"sweep /dev/null", "/dev/null:1:1: the scene lacks 'vessel'"},
       {"check no_such_scene", "no scene file 'no_such_scene'"},
+  });
+}
+
+TEST(CommandLine, RefusesWrongWallsAndFiles) {
+  expect_refusals({
       {"stability", "stability"},
       {"stability wall --damping-Nspm 1 --rate-hz 1000", "--mass-kg is required"},
       {"stability wall --mass-kg 0 --damping-Nspm 1 --rate-hz 1000", "--mass-kg '0'; allowed: a number, "},
@@ -116,6 +126,11 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"report /proc/self/status", "/proc/self/status: is not a result file"},
       {"report a.nc b.nc", "b.nc; see wholehand report --help"},
       {"devices extra", "extra; see wholehand devices --help"},
+  });
+}
+
+TEST(CommandLine, RefusesWrongTrials) {
+  expect_refusals({
       {"trials", "scene is required"},
       {"trials small", "--output is required"},
       {"trials small -o ''", "must not be empty"},
@@ -132,6 +147,11 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"trials small -o t --friction 11", "--friction '11'; allowed: a number, 0 to 10"},
       {"trials small -o t --threads 0", "--threads '0'; allowed: a whole number, 1 to 1024"},
       {"trials small -o t --seed x", "--seed 'x'"},
+  });
+}
+
+TEST(CommandLine, RefusesWrongGrips) {
+  expect_refusals({
       {"grip", "scene is required"},
       {"grip small", "--vessel is required"},
       {"grip small --vessel tumbler", "the place of the grip is missing; give --height-mm, or --thumb-mm and --index-mm"},
@@ -155,6 +175,11 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"grip paper_pose --vessel beaker1 --height-mm 50 --fill 0.5", "has no [liquid]"},
       {"grip paper_pose --vessel beaker1 --height-mm 50 --fill-ml 50", "--fill-ml: "},
       {std::string(SMALL_GRIP) + " --fill-ml 6000", "--fill-ml 6000: vessel 'tumbler' holds "},
+  });
+}
+
+TEST(CommandLine, RefusesWrongPictures) {
+  expect_refusals({
       {std::string(SMALL_GRIP) + " --glb", "--glb"},
       {std::string(SMALL_GRIP) + " --glb ''", "must not be empty"},
       {std::string(SMALL_GRIP) + " --svg ''", "must not be empty"},
@@ -169,8 +194,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"sweep small --glb x", "--glb 'x'"},
       {"sweep small --best 2 --glb 3 --on core -o /tmp/wholehand_cli_none.nc",
        "--glb 3: the sweep keeps only the best 2 grips of each vessel"},
-  };
-  for (const auto& [arguments, gist] : cases) expect_error(arguments, 2, gist);
+  });
 }
 
 TEST(CommandLine, NamesFileLineAndColumn) {

@@ -48,74 +48,89 @@ void expect_holding(const OscMessage& message, double truth) {
   EXPECT_EQ(number(message), std::isnan(truth) ? 0 : std::isinf(truth) ? -1 : static_cast<float>(truth)) << message.address;
 }
 
-void expect_frame(std::map<std::string, OscMessage> messages, const Scene& scene, const DisplayMoment& moment) {
-  const Tick& tick = moment.tick;
-  const auto take = [&messages](const std::string& address) {
+// A frame of which each message is taken once.
+struct Frame {
+  std::map<std::string, OscMessage> messages;
+  OscMessage take(const std::string& address) {
     const auto found = messages.find(address);
     EXPECT_NE(found, messages.end()) << address;
     OscMessage message = found == messages.end() ? OscMessage{address, {}} : found->second;
     messages.erase(address);
     return message;
-  };
-  const OscMessage state = take("/wholehand/state");
-  EXPECT_EQ(whole(state), static_cast<int>(tick.state));
-  EXPECT_EQ(text(state, 1), SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)]);
-  EXPECT_EQ(text(take("/wholehand/hand/side")), scene.hand.handedness == Handedness::left ? "left" : "right");
-  EXPECT_EQ(number(take("/wholehand/hand/closure")), static_cast<float>(tick.closure));
-  EXPECT_EQ(number(take("/wholehand/hand/gap")), static_cast<float>(tick.gap));
-  EXPECT_EQ(number(take("/wholehand/hand/tilt")), static_cast<float>(tick.tilt));
-  EXPECT_EQ(number(take("/wholehand/hand/flow")), static_cast<float>(tick.flow));
-  const OscMessage vessel = take("/wholehand/hand/vessel");
-  EXPECT_EQ(whole(vessel), tick.vessel);
-  EXPECT_EQ(text(vessel, 1), tick.vessel < 0 ? "" : scene.vessels[static_cast<std::size_t>(tick.vessel)].name);
-  const OscMessage contacts = take("/wholehand/hand/contacts");
+  }
+};
+
+void expect_joints(Frame& frame, const HandView& hand) {
+  const OscMessage contacts = frame.take("/wholehand/hand/contacts");
   ASSERT_EQ(contacts.arguments.size(), 24u);
-  expect_place(take("/wholehand/joint/XR_HAND_JOINT_WRIST_EXT"), moment.hand.wrist);
+  expect_place(frame.take("/wholehand/joint/XR_HAND_JOINT_WRIST_EXT"), hand.wrist);
   for (int f = 0; f < FINGER_COUNT; ++f) {
     for (int k = 0; k < finger_joints(f); ++k) {
       const int j = finger_start(f) + k;
-      const OscMessage joint = take(std::string("/wholehand/joint/") + JOINT_NAMES[j].openxr);
-      expect_place(joint, moment.hand.proxies[j]);
-      EXPECT_EQ(whole(contacts, j), static_cast<int>(moment.hand.contact[j]));
+      const OscMessage joint = frame.take(std::string("/wholehand/joint/") + JOINT_NAMES[j].openxr);
+      expect_place(joint, hand.proxies[j]);
+      EXPECT_EQ(whole(contacts, j), static_cast<int>(hand.contact[j]));
       const Turn turn = turn_of(joint);
       if (k + 1 == finger_joints(f)) continue;
       // OpenXR: the bone to the next joint runs along -z
-      const Triple &from = moment.hand.proxies[j], &to = moment.hand.proxies[j + 1];
+      const Triple &from = hand.proxies[j], &to = hand.proxies[j + 1];
       const double length = std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
       for (int row = 0; row < 3; ++row) EXPECT_NEAR(-turn[3 * row + 2], (to[row] - from[row]) / length, 1e-5) << joint.address;
     }
   }
+}
+
+void expect_forces(Frame& frame, const Scene& scene, const DisplayMoment& moment) {
+  const Tick& tick = moment.tick;
+  EXPECT_EQ(number(frame.take("/wholehand/force/feedback")), static_cast<float>(tick.feedback));
+  EXPECT_EQ(number(frame.take("/wholehand/force/base")), is_held(tick.state) ? static_cast<float>(scene.force.base) : 0);
+  EXPECT_EQ(number(frame.take("/wholehand/force/normal")), static_cast<float>(tick.normal_force));
+  EXPECT_EQ(number(frame.take("/wholehand/force/opening")), static_cast<float>(tick.opening_force));
+  EXPECT_EQ(number(frame.take("/wholehand/force/user")), static_cast<float>(tick.user_force));
+  const std::optional<HandHold>& hold = moment.hand.hold;
+  expect_holding(frame.take("/wholehand/force/hold"), hold ? hold->force() : tick.hold_force);
+  if (scene.strength) {
+    EXPECT_EQ(hold.has_value(), is_held(tick.state));
+    expect_holding(frame.take("/wholehand/force/tips_hold"), hold ? hold->tips_force() : Tick::NONE);
+    expect_holding(frame.take("/wholehand/hand/effort"), hold ? hold->effort : Tick::NONE);
+    expect_holding(frame.take("/wholehand/hand/tips_effort"), hold ? hold->tips : Tick::NONE);
+  }
+  EXPECT_EQ(number(frame.take("/wholehand/force/weight")), static_cast<float>(tick.weight));
+  EXPECT_EQ(number(frame.take("/wholehand/force/torque")), static_cast<float>(tick.torque));
+}
+
+void expect_frame(const std::map<std::string, OscMessage>& messages, const Scene& scene, const DisplayMoment& moment) {
+  Frame frame{messages};
+  const Tick& tick = moment.tick;
+  const OscMessage state = frame.take("/wholehand/state");
+  EXPECT_EQ(whole(state), static_cast<int>(tick.state));
+  EXPECT_EQ(text(state, 1), SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)]);
+  EXPECT_EQ(text(frame.take("/wholehand/hand/side")), scene.hand.handedness == Handedness::left ? "left" : "right");
+  EXPECT_EQ(number(frame.take("/wholehand/hand/closure")), static_cast<float>(tick.closure));
+  EXPECT_EQ(number(frame.take("/wholehand/hand/gap")), static_cast<float>(tick.gap));
+  EXPECT_EQ(number(frame.take("/wholehand/hand/tilt")), static_cast<float>(tick.tilt));
+  EXPECT_EQ(number(frame.take("/wholehand/hand/flow")), static_cast<float>(tick.flow));
+  const OscMessage vessel = frame.take("/wholehand/hand/vessel");
+  EXPECT_EQ(whole(vessel), tick.vessel);
+  EXPECT_EQ(text(vessel, 1), tick.vessel < 0 ? "" : scene.vessels[static_cast<std::size_t>(tick.vessel)].name);
+  expect_joints(frame, moment.hand);
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const std::string address = "/wholehand/vessel/" + scene.vessels[v].name;
-    const OscMessage pose = take(address + "/pose");
+    const OscMessage pose = frame.take(address + "/pose");
     expect_place(pose, moment.poses[v].place);
     const Turn turn = turn_of(pose);
     for (int k = 0; k < 9; ++k) EXPECT_NEAR(turn[k], moment.poses[v].rotation[k], 1e-6) << address;
-    EXPECT_EQ(number(take(address + "/liquid")), static_cast<float>(tick.volume[v]));
+    EXPECT_EQ(number(frame.take(address + "/liquid")), static_cast<float>(tick.volume[v]));
   }
-  EXPECT_EQ(number(take("/wholehand/force/feedback")), static_cast<float>(tick.feedback));
-  EXPECT_EQ(number(take("/wholehand/force/base")), is_held(tick.state) ? static_cast<float>(scene.force.base) : 0);
-  EXPECT_EQ(number(take("/wholehand/force/normal")), static_cast<float>(tick.normal_force));
-  EXPECT_EQ(number(take("/wholehand/force/opening")), static_cast<float>(tick.opening_force));
-  EXPECT_EQ(number(take("/wholehand/force/user")), static_cast<float>(tick.user_force));
-  const std::optional<HandHold>& hold = moment.hand.hold;
-  expect_holding(take("/wholehand/force/hold"), hold ? hold->force() : tick.hold_force);
-  if (scene.strength) {
-    EXPECT_EQ(hold.has_value(), is_held(tick.state));
-    expect_holding(take("/wholehand/force/tips_hold"), hold ? hold->tips_force() : Tick::NONE);
-    expect_holding(take("/wholehand/hand/effort"), hold ? hold->effort : Tick::NONE);
-    expect_holding(take("/wholehand/hand/tips_effort"), hold ? hold->tips : Tick::NONE);
-  }
-  EXPECT_EQ(number(take("/wholehand/force/weight")), static_cast<float>(tick.weight));
-  EXPECT_EQ(number(take("/wholehand/force/torque")), static_cast<float>(tick.torque));
-  const OscMessage amount = take("/wholehand/amount/water");
+  expect_forces(frame, scene, moment);
+  const OscMessage amount = frame.take("/wholehand/amount/water");
   EXPECT_EQ(number(amount), static_cast<float>(tick.arrived[0]));
   EXPECT_EQ(number(amount, 1), 200e-6f);
-  EXPECT_EQ(number(take("/wholehand/task/spilled")), static_cast<float>(tick.spilled[0]));
-  EXPECT_EQ(whole(take("/wholehand/task/guidance")), tick.guidance);
-  EXPECT_EQ(whole(take("/wholehand/task/done")), tick.task_done ? 1 : 0);
-  EXPECT_EQ(whole(take("/wholehand/end")), tick.number);
-  EXPECT_TRUE(messages.empty()) << "not documented: " << messages.begin()->first;
+  EXPECT_EQ(number(frame.take("/wholehand/task/spilled")), static_cast<float>(tick.spilled[0]));
+  EXPECT_EQ(whole(frame.take("/wholehand/task/guidance")), tick.guidance);
+  EXPECT_EQ(whole(frame.take("/wholehand/task/done")), tick.task_done ? 1 : 0);
+  EXPECT_EQ(whole(frame.take("/wholehand/end")), tick.number);
+  EXPECT_TRUE(frame.messages.empty()) << "not documented: " << frame.messages.begin()->first;
 }
 
 // docs/stream.md has a line for each address, names left open.

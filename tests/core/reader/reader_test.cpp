@@ -56,8 +56,7 @@ TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
   EXPECT_FALSE(scene.device.has_gap);
 }
 
-TEST(SceneReader, ReadsSceneAndHand) {
-  const Scene scene = scene_from(R"(
+const std::string SCENE_AND_HAND = R"(
 [scene]
 name = "all of it"
 pose = "paper"
@@ -99,7 +98,10 @@ thumb_ip_deg = [3, 46]
 mcp_deg = [5, 67]
 pip_deg = [13, 41]
 dip_per_pip = 0.5
-)" + VESSEL);
+)";
+
+TEST(SceneReader, ReadsSceneAndHand) {
+  const Scene scene = scene_from(SCENE_AND_HAND + VESSEL);
   EXPECT_EQ(scene.name, "all of it");
   EXPECT_EQ(scene.pose, Pose::paper);
   EXPECT_EQ(scene.gravity, 1.62);
@@ -190,8 +192,7 @@ TEST(SceneReader, TheDefaultHandIsWhatItsTableSays) {
   EXPECT_EQ(scene.hand.fingers[0].splay, plain.fingers[0].splay);
 }
 
-TEST(SceneReader, ReadsVessels) {
-  const Scene scene = scene_from(R"(
+const std::string THREE_VESSELS = R"(
 [liquid]
 fills = [0.5]
 [[vessel]]
@@ -226,7 +227,10 @@ rotate_deg = [90, 0, -45]
 origin = "as_is"
 grid_mm = 1.5
 inner_outline = [{ line = [0, -3] }, { line = [20, -3] }, { arc = [30, 7], center = [20, 7] }, { line = [30, 80] }]
-)");
+)";
+
+TEST(SceneReader, ReadsVessels) {
+  const Scene scene = scene_from(THREE_VESSELS);
   ASSERT_EQ(scene.vessels.size(), 3u);
   const VesselData& glass = scene.vessels[0];
   EXPECT_EQ(glass.name, "glass");

@@ -124,6 +124,20 @@ struct CountedLevers {
   int held = 0, unheld = 0, pushed = 0, unpushed = 0;
 };
 
+// Grips so far above a height, each on the axis and then further and further off it.
+std::vector<GripInput> grips_off(double height, const std::vector<double>& above) {
+  std::vector<GripInput> grips;
+  for (const double higher : above)
+    for (int k = -49; k <= -12; ++k) {
+      GripInput grip;
+      grip.height = height + higher;
+      grip.roll = radians(-30);
+      grip.offset = k == -49 ? 0 : std::pow(10, k / 4.0);
+      grips.push_back(grip);
+    }
+  return grips;
+}
+
 // Grips off the axis and off the height of the center of mass against the grip at the same height on the axis, or at the center of mass.
 CountedLevers count_levers(Scene scene, const std::vector<double>& above) {
   scene.strength.emplace();
@@ -132,15 +146,7 @@ CountedLevers count_levers(Scene scene, const std::vector<double>& above) {
   const Vec3 center = to_vec3<double>(core->constants(0).center_of_mass);
   std::vector<Vec3> weights;
   for (const double tilt : scene.tilts) weights.push_back(core_f64::up_direction({0, 0, -1}, std::sin(tilt), std::cos(tilt)));
-  std::vector<GripInput> grips;
-  for (const double height : above)
-    for (int k = -49; k <= -12; ++k) {
-      GripInput grip;
-      grip.height = center.y + height;
-      grip.roll = radians(-30);
-      grip.offset = k == -49 ? 0 : std::pow(10, k / 4.0);
-      grips.push_back(grip);
-    }
+  const std::vector<GripInput> grips = grips_off(center.y, above);
   const std::size_t in_a_row = grips.size() / above.size();
   const FieldSet fields = all_fields(scene);
   const GatheredPlanes truth = gather(*core, fields, 0, grips);
