@@ -157,8 +157,11 @@ TEST(ResultFile, EndingHoldsTheBestAndTheTimes) {
   SweepFile setup(fake_scene(), folder / "a.nc");
   ResultFile file = setup.open();
   setup.write_all(file);
-  const GripInput grip{0.05, 0, 0.1, -0.2, 5e-3, 1};
-  file.write_ending({{{{0.9, 12}, grip}, {{0.8, 5}, grip}}, {}}, 12.5, 3.25);
+  BestGrip first, second;
+  first.candidate = {0.9, 12};
+  second.candidate = {0.8, 5};
+  first.grip = second.grip = {0.05, 0, 0.1, -0.2, 5e-3, 1};
+  file.write_ending({{first, second}, {}}, 12.5, 3.25);
   file.finish();
   EXPECT_EQ(read_values(folder / "a.nc", "best_grip"), (std::vector<double>{12, 5, -1, -1, -1, -1}));
   const auto score = read_values(folder / "a.nc", "best_score"), roll = read_values(folder / "a.nc", "best_roll");
