@@ -123,9 +123,9 @@ class EffortSolver {
     Real tolerance = 0, enough = 0, too_much = 0;
     int most_pivots = 0;
     Effort answer{};
-    Vec6 best{};                                    // the direction of the greatest lower bound
-    std::optional<std::array<Column, 6>> balanced;  // the last basis whose levels are none below zero
-    bool is_beyond = false;                         // the lower bound is beyond `too_much`
+    Vec6 best{};                                      // the direction of the greatest lower bound
+    std::optional<std::array<Column, 6>> balanced{};  // the last basis whose levels are none below zero
+    bool is_beyond = false;                           // the lower bound is beyond `too_much`
   };
   using Best = std::array<int, DIGITS>;  // a contact each; -1: none
 
