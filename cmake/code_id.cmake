@@ -13,7 +13,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     endforeach()
   endforeach()
   string(SHA1 id "${digests}")
-  file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT "// generated: see cmake/code_id.cmake\n#include \"sweeps/run/code_id.h\"\n\nconst char* wholehand::code_id() { return \"sha1-${id}\"; }\n")
+  file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT "// generated: see cmake/code_id.cmake\n#include \"sweeps/run/code_id.h\"\n\nconst char* wholehand::sweeps::code_id() { return \"sha1-${id}\"; }\n")
   return()
 endif()
 

@@ -18,7 +18,7 @@ using namespace wholehand;
 
 struct wh_batch {
   std::shared_ptr<const ReadyScene> ready;
-  std::vector<const Variable*> variables;  // in the caller's order
+  std::vector<const sweeps::Variable*> variables;  // in the caller's order
   FieldSet fields;
   std::unique_ptr<Backend> backend;
   std::string notes;  // of the last run, a line each
@@ -69,14 +69,14 @@ void put(const Place& place, std::size_t grip, std::size_t value, double number)
 }
 
 // One variable of the grips of a chunk.
-void write_values(const wh_batch& batch, const Variable& variable, const PlaneChunk& chunk, const Place& place) {
-  const std::size_t values = variable_planes(variable, batch.ready->scene);
+void write_values(const wh_batch& batch, const sweeps::Variable& variable, const PlaneChunk& chunk, const Place& place) {
+  const std::size_t values = sweeps::variable_planes(variable, batch.ready->scene);
   const int first = batch.fields.plane[static_cast<std::size_t>(variable.field)] + variable.plane;
   const int status = batch.fields.plane[FIELD_STATUS];
   for (std::size_t v = 0; v < values; ++v)
     for (std::size_t i = 0; i < chunk.count; ++i) {
       const int plane = first + static_cast<int>(v);
-      if (variable.type == NumberType::real) {
+      if (variable.type == sweeps::NumberType::real) {
         put(place, chunk.first + i, v, chunk.real(plane, i));
         continue;
       }
@@ -86,17 +86,18 @@ void write_values(const wh_batch& batch, const Variable& variable, const PlaneCh
 }
 
 // One output of a request, checked: where variable `variable` goes.
-wh_status check_output(const wh_batch& batch, const Variable& variable, const wh_output& own, size_t count, Place& place) noexcept {
+wh_status check_output(const wh_batch& batch, const sweeps::Variable& variable, const wh_output& own, size_t count,
+                       Place& place) noexcept {
   const char* name = variable.name;
   if (!own.data && count > 0) return fail(WH_ARGUMENT, "wh_batch_run: the data of %s are null", name);
   if (own.type != WH_DOUBLE && own.type != WH_FLOAT && own.type != WH_INT32)
     return fail(WH_ARGUMENT, "wh_batch_run: %s has the type %d; 0 is double, 1 is float, 2 is int32", name,
                 static_cast<int>(own.type));
   if (own.reserved != 0) return fail(WH_ARGUMENT, "wh_batch_run: a reserved member of the output of %s is not 0", name);
-  if (own.type == WH_INT32 && variable.type == NumberType::real)
+  if (own.type == WH_INT32 && variable.type == sweeps::NumberType::real)
     return fail(WH_ARGUMENT, "wh_batch_run: %s is real and does not go into whole numbers", name);
   const auto size = static_cast<ptrdiff_t>(size_of(own.type));
-  const std::size_t values = variable_planes(variable, batch.ready->scene);
+  const std::size_t values = sweeps::variable_planes(variable, batch.ready->scene);
   const bool is_packed = own.grip_stride == 0 && own.value_stride == 0;
   place = {static_cast<char*>(own.data), own.type, is_packed ? size * static_cast<ptrdiff_t>(values) : own.grip_stride,
            is_packed ? size : own.value_stride};
@@ -155,8 +156,8 @@ wh_status wh_batch_open(const wh_scene* scene, const char* const* variables, siz
     auto made = std::make_unique<wh_batch>();
     made->ready = scene->ready;
     const Scene& own = made->ready->scene;
-    made->variables = named_variables(own, std::vector<std::string>(variables, variables + count), "wh_batch_open");
-    made->fields = make_field_set(variable_fields(made->variables), own);
+    made->variables = sweeps::named_variables(own, std::vector<std::string>(variables, variables + count), "wh_batch_open");
+    made->fields = make_field_set(sweeps::variable_fields(made->variables), own);
     made->backend = open_backend(own, made->fields, on ? on : "core", is_double ? Precision::full : Precision::single, threads);
     *batch = made.release();
     return WH_OK;

@@ -68,7 +68,7 @@ wh_grip_result result_of(const GripResult& grip, const GripScore& score) noexcep
 }
 
 // The fields of the state's struct; `hold` if the scene has strengths.
-wh_grip_state state_of(const GripState& found, const StateHold* hold) noexcept {
+wh_grip_state state_of(const sweeps::GripState& found, const sweeps::StateHold* hold) noexcept {
   wh_grip_state out{};
   out.fill = found.fill;
   out.tilt = found.tilt;
@@ -88,9 +88,10 @@ wh_grip_state state_of(const GripState& found, const StateHold* hold) noexcept {
   return out;
 }
 
-GripReport report_of(const ReadyScene& ready, size_t vessel, const GripInput& asked, const StateAxes& axes) {
-  GripReport report = make_grip_report(ready.scene, vessel, asked, axes, core_grip_methods(ready.scene, ready.core, "core"));
-  add_holding(report, ready.scene, vessel, *ready.core);
+sweeps::GripReport report_of(const ReadyScene& ready, size_t vessel, const GripInput& asked, const sweeps::StateAxes& axes) {
+  sweeps::GripReport report =
+      sweeps::make_grip_report(ready.scene, vessel, asked, axes, sweeps::core_grip_methods(ready.scene, ready.core, "core"));
+  sweeps::add_holding(report, ready.scene, vessel, *ready.core);
   return report;
 }
 
@@ -120,7 +121,7 @@ wh_status wh_grip_hold(const wh_scene* scene, size_t vessel, const wh_grip* grip
   return guarded([&] {
     const ReadyScene& ready = *scene->ready;
     if (fill > 0 && !ready.scene.liquid) return fail(WH_INPUT, "wh_grip_hold: the fill is %g, and the scene has no [liquid]", fill);
-    const GripReport report = report_of(ready, vessel, asked, {{fill}, {tilt}});
+    const sweeps::GripReport report = report_of(ready, vessel, asked, {{fill}, {tilt}});
     const Reason reason = report.answer.result.reason;
     if (reason != Reason::none)
       return fail(WH_INPUT, "wh_grip_hold: the grip is not feasible (%s)", REASON_NAMES[static_cast<std::size_t>(reason)]);
@@ -137,7 +138,7 @@ wh_status wh_grip_json(const wh_scene* scene, size_t vessel, const wh_grip* grip
   if (const wh_status status = take_grip(*scene->ready, grip, asked, "wh_grip_json: the grip"); status != WH_OK) return status;
   return guarded([&] {
     const ReadyScene& ready = *scene->ready;
-    const std::string json = grip_json(report_of(ready, vessel, asked, scene_axes(ready.scene, vessel)));
+    const std::string json = sweeps::grip_json(report_of(ready, vessel, asked, sweeps::scene_axes(ready.scene, vessel)));
     char* const own = new char[json.size() + 1];
     std::memcpy(own, json.c_str(), json.size() + 1);
     *text = own;

@@ -15,9 +15,9 @@ using namespace wholehand;
 
 struct wh_session {
   wh_session(const Scene& scene, std::array<double, 2> gap) : session(scene, gap), yielding(session.live().hand) {}
-  Session session;
+  device::Session session;
   core_f64::Hand yielding;
-  Tick tick;
+  device::Tick tick;
   std::int64_t last = -1;  // number of the last tick; -1: none yet
   std::atomic_flag is_in_use = ATOMIC_FLAG_INIT;
 };
@@ -29,8 +29,8 @@ void copy(const std::array<double, N>& from, double* to) noexcept {
   for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
 }
 
-GripperState state_of(const wh_measurement& in) noexcept {
-  GripperState state;
+device::GripperState state_of(const wh_measurement& in) noexcept {
+  device::GripperState state;
   std::copy_n(in.position, 3, state.position.begin());
   // all zeros mean no rotation
   if (std::any_of(in.rotation, in.rotation + 9, [](double x) { return x != 0; }))
@@ -40,7 +40,7 @@ GripperState state_of(const wh_measurement& in) noexcept {
   return state;
 }
 
-wh_session_output output_of(const Tick& tick) noexcept {
+wh_session_output output_of(const device::Tick& tick) noexcept {
   wh_session_output out{};
   out.state = static_cast<std::int32_t>(tick.state);
   out.vessel = tick.vessel;
@@ -98,14 +98,14 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
   if (const wh_status status = check_answer(output, "wh_session_step: the output"); status != WH_OK) return status;
   const Entered entered(session->is_in_use);
   if (!entered) return fail(WH_BUSY, "wh_session_step: another thread is in this session");
-  const GripperState state = state_of(in);
-  if (!is_finite(state)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
-  if (!is_in_reach(state))
+  const device::GripperState state = state_of(in);
+  if (!device::is_finite(state)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
+  if (!device::is_in_reach(state))
     return fail(WH_INPUT, "wh_session_step: the measurement is out of reach; allowed: a position up to 25 m, a gap up to 10 m");
-  if (!is_rotation(state.rotation, ROTATION_TOLERANCE))
+  if (!is_rotation(state.rotation, device::ROTATION_TOLERANCE))
     return fail(WH_INPUT, "wh_session_step: the measurement's rotation is not a rotation matrix");
   if (in.reserved != 0) return fail(WH_ARGUMENT, "wh_session_step: a reserved member of the measurement is not 0");
-  if (in.tick < 0 || in.tick > LAST_TICK)
+  if (in.tick < 0 || in.tick > device::LAST_TICK)
     return fail(WH_INPUT, "wh_session_step: the tick is %lld; allowed: 0 to 2^53", static_cast<long long>(in.tick));
   if (in.tick <= session->last)
     return fail(WH_INPUT, "wh_session_step: the tick %lld does not come after the tick %lld", static_cast<long long>(in.tick),
@@ -125,7 +125,7 @@ wh_status wh_session_vessel_at(wh_session* session, size_t index, wh_session_ves
   if (index >= vessels)
     return fail(WH_ARGUMENT, "wh_session_vessel_at: the scene has %zu vessels, and none of number %zu", vessels, index);
   wh_session_vessel own{};
-  const VesselPose& pose = session->session.poses()[index];
+  const device::VesselPose& pose = session->session.poses()[index];
   copy(pose.place, own.place);
   copy(pose.rotation, own.rotation);
   const bool has_stepped = session->last >= 0;
@@ -142,9 +142,9 @@ wh_status wh_session_hand(wh_session* session, wh_hand* hand) {
   const Entered entered(session->is_in_use);
   if (!entered) return fail(WH_BUSY, "wh_session_hand: another thread is in this session");
   if (session->last < 0) return fail(WH_ARGUMENT, "wh_session_hand: there is no hand before the first step");
-  const LiveScene& live = session->session.live();
-  const HandView view = hand_posture(live, session->tick, session->session.poses(), session->yielding);
-  const HandNodes nodes = hand_nodes(live.scene.hand, live.hand, view.wrist, view.rotation, view.proxies);
+  const device::LiveScene& live = session->session.live();
+  const device::HandView view = device::hand_posture(live, session->tick, session->session.poses(), session->yielding);
+  const sweeps::HandNodes nodes = sweeps::hand_nodes(live.scene.hand, live.hand, view.wrist, view.rotation, view.proxies);
   wh_hand own{};
   for (std::size_t j = 0; j < WH_JOINTS; ++j) {
     copy(view.proxies[j], own.joints[j]);

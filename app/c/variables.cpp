@@ -13,7 +13,7 @@ using namespace wholehand;
 namespace {
 
 // "fill tilt": texts that live as long as the library.
-const char* dims_text(const Variable& variable) {
+const char* dims_text(const sweeps::Variable& variable) {
   static std::mutex mutex;
   static std::map<std::string, std::string> texts;
   const std::lock_guard lock(mutex);
@@ -27,7 +27,7 @@ const char* dims_text(const Variable& variable) {
 size_t wh_variables(void) {
   size_t count = 0;
   guarded([&] {
-    count = variable_catalogue().size();
+    count = sweeps::variable_catalogue().size();
     return WH_OK;
   });
   return count;
@@ -36,17 +36,17 @@ size_t wh_variables(void) {
 wh_status wh_variable_at(size_t index, wh_variable* variable) {
   if (const wh_status status = check_answer(variable, "wh_variable_at: the variable's struct"); status != WH_OK) return status;
   return guarded([&] {
-    const auto catalogue = variable_catalogue();
+    const auto catalogue = sweeps::variable_catalogue();
     if (index >= catalogue.size())
       return fail(WH_ARGUMENT, "wh_variable_at: there are %zu variables, and none of number %zu", catalogue.size(), index);
-    const Variable& known = catalogue[index];
+    const sweeps::Variable& known = catalogue[index];
     wh_variable own{};
     own.name = known.name;
     own.unit = known.units;
     own.long_name = known.long_name;
     own.comment = known.comment;
     own.dims = dims_text(known);
-    own.is_integer = known.type == NumberType::real ? 0 : 1;
+    own.is_integer = known.type == sweeps::NumberType::real ? 0 : 1;
     give_back(own, variable);
     return WH_OK;
   });
@@ -55,10 +55,10 @@ wh_status wh_variable_at(size_t index, wh_variable* variable) {
 wh_status wh_variable_values(const wh_scene* scene, const char* name, size_t* values) {
   if (!scene || !name || !values) return fail(WH_ARGUMENT, "wh_variable_values: a pointer is null");
   return guarded([&] {
-    for (const Variable& variable : variable_catalogue()) {
+    for (const sweeps::Variable& variable : sweeps::variable_catalogue()) {
       if (std::string(variable.name) != name) continue;
       const Scene& own = scene->ready->scene;
-      *values = missing_need(variable, own) ? 0 : variable_planes(variable, own);
+      *values = sweeps::missing_need(variable, own) ? 0 : sweeps::variable_planes(variable, own);
       return WH_OK;
     }
     return fail(WH_INPUT, std::string("no variable '") + name + "'; wh_variable_at names all");

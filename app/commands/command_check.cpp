@@ -54,8 +54,8 @@ void add_check_command(CLI::App& app, Action& action) {
         }
       });
       for (const std::string& line : check_warnings(scene)) print_note(line);
-      print_cavity_notes(scene);
-      if (const std::string note = idle_strength_note(scene); !note.empty()) print_note(note);
+      sweeps::print_cavity_notes(scene);
+      if (const std::string note = sweeps::idle_strength_note(scene); !note.empty()) print_note(note);
       const CheckReport report = check_scene(scene, options);
       print(arguments->json ? check_json(report) : check_text(report));
       return verdict_of(report).holds ? ExitCode::done : ExitCode::no;

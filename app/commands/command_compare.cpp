@@ -24,7 +24,7 @@ struct CompareArguments {
 ExitCode compare(const CompareArguments& arguments) {
   if (is_same_file(arguments.a, arguments.b))
     throw usage_error(fmt::format("compare: {} and {} are the same file; name two results", arguments.a, arguments.b));
-  SweepResult a(arguments.a), b(arguments.b);
+  sweeps::SweepResult a(arguments.a), b(arguments.b);
   if (!arguments.page.empty()) {
     check_output_path(arguments.page);
     check_overwrites_page(arguments.page, is_same_file(arguments.page, arguments.b) ? arguments.b : arguments.a);

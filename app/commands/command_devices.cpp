@@ -21,7 +21,7 @@ ExitCode list_all_devices(const std::string& dhd_library) {
   prepare_vulkan_environment();
   print_devices();
   std::fflush(stdout);  // a device's library may end the program
-  print(gripper_lines(find_grippers(dhd_library)) + cache_text());
+  print(gripper_lines(device::find_grippers(dhd_library)) + cache_text());
   return ExitCode::done;
 }
 

@@ -48,7 +48,7 @@ struct GripArguments {
   std::string scene, vessel, height, azimuth = "0", obliquity = "0", roll = "0", offset = "0", hand_scale, thumb, index;
   std::string rank, list;
   std::vector<std::string> fills, volumes, tilts;
-  std::string on = ON_AUTO, precision, glb, svg, view_port;
+  std::string on = sweeps::ON_AUTO, precision, glb, svg, view_port;
   bool json = false, view = false, quality = false, refined = false;
 };
 
@@ -61,8 +61,8 @@ GripInput read_grip(const GripArguments& arguments) {
   const double roll = parse_quantity(arguments.roll, "--roll-deg", ranges::ROTATION);
   const double hand_scale = read_hand_scale(arguments).value_or(1);
   if (!arguments.thumb.empty()) {
-    return grip_through(parse_triple(arguments.thumb, "--thumb-mm", ranges::POINT),
-                        parse_triple(arguments.index, "--index-mm", ranges::POINT), roll, hand_scale);
+    return sweeps::grip_through(parse_triple(arguments.thumb, "--thumb-mm", ranges::POINT),
+                                parse_triple(arguments.index, "--index-mm", ranges::POINT), roll, hand_scale);
   }
   if (arguments.height.empty())
     throw usage_error("grip: the place of the grip is missing; give --height-mm, or --thumb-mm and --index-mm");
@@ -76,8 +76,8 @@ GripInput read_grip(const GripArguments& arguments) {
   return grip;
 }
 
-StateAxes read_states(const GripArguments& arguments, const Scene& scene, std::size_t vessel) {
-  StateAxes axes = scene_axes(scene, vessel);
+sweeps::StateAxes read_states(const GripArguments& arguments, const Scene& scene, std::size_t vessel) {
+  sweeps::StateAxes axes = sweeps::scene_axes(scene, vessel);
   if (!arguments.tilts.empty()) {
     axes.tilts.clear();
     for (const auto& text : arguments.tilts) axes.tilts.push_back(parse_quantity(text, "--tilt-deg", ranges::TILT));
@@ -105,11 +105,11 @@ void check_drawing_files(const GripArguments& arguments, const Scene& scene) {
   const auto check = [&scene](const std::string& path, const char* option, std::string_view mark, const char* what) {
     if (path.empty()) return;
     check_output_path(path, option);
-    check_not_the_scene(path, scene, option);
+    sweeps::check_not_the_scene(path, scene, option);
     check_overwrites_marked(path, mark, what, option);
   };
-  check(arguments.glb, "--glb", GRIP_GLB_MARK, "glTF binary of wholehand's");
-  check(arguments.svg, "--svg", GRIP_SVG_MARK, "drawing of wholehand's");
+  check(arguments.glb, "--glb", sweeps::GRIP_GLB_MARK, "glTF binary of wholehand's");
+  check(arguments.svg, "--svg", sweeps::GRIP_SVG_MARK, "drawing of wholehand's");
   const auto resolved = [](const std::string& path) {
     std::error_code unresolved;  // then no other way to it is known
     const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(followed(path)), unresolved);
@@ -120,9 +120,9 @@ void check_drawing_files(const GripArguments& arguments, const Scene& scene) {
 }
 
 // Both are made before either is written.
-void write_drawings(const GripArguments& arguments, const Scene& scene, std::size_t vessel, const GripReport& report) {
-  const std::string glb = arguments.glb.empty() ? "" : grip_glb(scene, vessel, report);
-  const std::string svg = arguments.svg.empty() ? "" : grip_svg(scene, vessel, report);
+void write_drawings(const GripArguments& arguments, const Scene& scene, std::size_t vessel, const sweeps::GripReport& report) {
+  const std::string glb = arguments.glb.empty() ? "" : sweeps::grip_glb(scene, vessel, report);
+  const std::string svg = arguments.svg.empty() ? "" : sweeps::grip_svg(scene, vessel, report);
   if (!glb.empty()) write_whole_file(arguments.glb, glb, false);
   if (!svg.empty()) write_whole_file(arguments.svg, svg, false);
 }
@@ -148,7 +148,7 @@ ChosenGrip asked_grip(const GripArguments& arguments) {
 }
 
 // The index of the hand scale among those that the sweep lists.
-std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
+std::size_t find_hand_scale(const GripArguments& arguments, const sweeps::Plan& plan) {
   const std::optional<double> wanted = read_hand_scale(arguments);
   if (plan.hand_scales() == 1) {
     if (wanted) throw usage_error("--hand-scale: the sweep has one list for all hand scales; leave the option out");
@@ -165,7 +165,8 @@ std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
 }
 
 // The place to which the sweep refined the grip of a rank.
-GripInput refined_grip(const SweepResult& result, const Plan& plan, std::size_t vessel, std::size_t list, std::size_t rank) {
+GripInput refined_grip(const sweeps::SweepResult& result, const sweeps::Plan& plan, std::size_t vessel, std::size_t list,
+                       std::size_t rank) {
   const auto refined = result.refined(vessel, list % plan.hand_scales());
   if (!refined[rank - 1])
     throw usage_error(
@@ -176,19 +177,19 @@ GripInput refined_grip(const SweepResult& result, const Plan& plan, std::size_t 
 // A grip of a sweep's best, or of a list made from its result.
 ChosenGrip ranked_grip(const GripArguments& arguments) {
   const auto rank = static_cast<std::size_t>(parse_integer(arguments.rank, "--rank", {1, ranges::BEST.high}));
-  SweepResult result(arguments.scene);
+  sweeps::SweepResult result(arguments.scene);
   ChosenGrip chosen;
   chosen.scene = whole_scene_of_result(result);
   check_drawing_files(arguments, chosen.scene);
   chosen.vessel = find_vessel(chosen.scene, arguments.vessel);
-  const Plan plan(chosen.scene, keeps_vectors(result.variables()));
+  const sweeps::Plan plan(chosen.scene, sweeps::keeps_vectors(result.variables()));
   result.use(chosen.scene, plan);
   const bool is_own = arguments.list.empty();
   if (arguments.refined && !is_own) throw usage_error("--refined: only the sweep's own list has refined grips; leave --list out");
-  const GripLists lists =
-      is_own ? lists_of_sweep(result, chosen.scene, plan) : read_grip_lists(arguments.list, result, chosen.scene, plan);
+  const sweeps::GripLists lists = is_own ? sweeps::lists_of_sweep(result, chosen.scene, plan)
+                                         : sweeps::read_grip_lists(arguments.list, result, chosen.scene, plan);
   const std::size_t place = chosen.vessel * plan.hand_scales() + find_hand_scale(arguments, plan);
-  for (const RankedCandidate& ranked : lists[place]) {
+  for (const sweeps::RankedCandidate& ranked : lists[place]) {
     if (ranked.rank != rank) continue;
     chosen.input = plan.grip(chosen.vessel, ranked.candidate.index);
     if (arguments.refined) chosen.input = refined_grip(result, plan, chosen.vessel, place, rank);
@@ -201,37 +202,38 @@ ChosenGrip ranked_grip(const GripArguments& arguments) {
         one_line(result.path()));
   }
   throw usage_error(fmt::format("--rank {}: {} lists {} of {}{}", rank, is_own ? result.path() : arguments.list,
-                                counted(lists[place].size(), "grip"), list_name(chosen.scene, plan, place), remedy));
+                                counted(lists[place].size(), "grip"), sweeps::list_name(chosen.scene, plan, place), remedy));
 }
 
 ExitCode grip(const GripArguments& given) {
   GripArguments arguments = given;
-  if (arguments.on == ON_AUTO) arguments.on = "core";
+  if (arguments.on == sweeps::ON_AUTO) arguments.on = "core";
   prepare_vulkan_environment(arguments.on);
   [[maybe_unused]] const int port = parse_view_port(arguments.view_port, arguments.view);
   auto [scene, vessel, input] = arguments.rank.empty() ? asked_grip(arguments) : ranked_grip(arguments);
-  const StateAxes axes = read_states(arguments, scene, vessel);
+  const sweeps::StateAxes axes = read_states(arguments, scene, vessel);
   Precision precision = arguments.on == "core" ? Precision::full : Precision::single;
   if (!arguments.precision.empty()) precision = parse_precision(arguments.precision);
   Scene asked = scene;
   asked.grips.hand_scale = {{input.hand_scale}};
   load_meshes(asked, [&] { return largest_buffer(arguments.on); });  // lattices as wide as this hand needs
   scene.vessels = asked.vessels;
-  print_cavity_notes(scene);
+  sweeps::print_cavity_notes(scene);
   // --tilt-deg adds the efforts of these tilts
-  if (const std::string note = idle_strength_note(scene); !note.empty() && axes.tilts.empty()) print_note(note);
+  if (const std::string note = sweeps::idle_strength_note(scene); !note.empty() && axes.tilts.empty()) print_note(note);
   print_float_warnings(asked, precision);
-  GripReport report;
+  sweeps::GripReport report;
   {
     const DriverWatch watch(arguments.on);
-    report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
+    report = sweeps::make_grip_report(scene, vessel, input, axes, sweeps::open_grip_methods(scene, arguments.on, precision));
   }
-  add_holding(report, scene, vessel);
-  if (!arguments.json) add_held_share(report, scene, vessel);
-  if (arguments.quality) add_quality(report, scene, vessel);
+  sweeps::add_holding(report, scene, vessel);
+  if (!arguments.json) sweeps::add_held_share(report, scene, vessel);
+  if (arguments.quality) sweeps::add_quality(report, scene, vessel);
   write_drawings(arguments, scene, vessel, report);
   if (arguments.json && arguments.on != "core") print_note("on " + report.device);
-  print(arguments.json ? grip_json(report) + "\n" : grip_verdict(scene, report) + "\n" + grip_table(report));
+  print(arguments.json ? sweeps::grip_json(report) + "\n"
+                       : sweeps::grip_verdict(scene, report) + "\n" + sweeps::grip_table(report));
   for (const std::string& path : {arguments.glb, arguments.svg}) {
     if (!path.empty() && !arguments.json) print(fmt::format("wrote {}\n", one_line(path)));
   }

@@ -13,7 +13,7 @@
 namespace wholehand {
 
 void add_merge_command(CLI::App& app, Action& action) {
-  const auto request = std::make_shared<MergeRequest>();
+  const auto request = std::make_shared<sweeps::MergeRequest>();
   CLI::App* command = app.add_subcommand("merge", "Make one result of the shards that the nodes of a cluster wrote");
   command->add_option("result", request->result, "Result of `wholehand-mpi sweep --shards`, by the name that the sweep was given")
       ->type_name("FILE.nc")
@@ -27,7 +27,7 @@ void add_merge_command(CLI::App& app, Action& action) {
             return std::filesystem::is_directory(path) ? std::string() : "\"" + path + "\" is no folder; name one that is there";
           },
           ""));
-  command->callback([request, &action] { action = [request] { return merge_shards(*request); }; });
+  command->callback([request, &action] { action = [request] { return sweeps::merge_shards(*request); }; });
 }
 
 }  // namespace wholehand

@@ -23,8 +23,8 @@ struct PageArguments {
 };
 
 ExitCode report_sweep(const PageArguments& arguments) {
-  const std::string page = arguments.page.empty() ? output_names(arguments.result).stem + ".html" : arguments.page;
-  SweepResult result(arguments.result);
+  const std::string page = arguments.page.empty() ? sweeps::output_names(arguments.result).stem + ".html" : arguments.page;
+  sweeps::SweepResult result(arguments.result);
   check_output_path(page);
   check_overwrites_page(page, arguments.result);
   result.check_all();  // also what the page does not show: it says that the file's numbers agree

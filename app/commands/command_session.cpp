@@ -31,25 +31,26 @@ constexpr FolderTable TABLES[] = {{"session.csv", "grasp,vessel,start_s,"}, {"st
 constexpr const char* PICTURE = "session.svg";
 
 // The tables, and the picture if there is something to draw. Returns what could not be drawn, and why.
-std::string write_session_files(const std::string& folder, const Recording& recording, const SessionReport& report) {
+std::string write_session_files(const std::string& folder, const device::Recording& recording,
+                                const device::SessionReport& report) {
   const std::string picture = folder + "/" + PICTURE;
   const bool has_own_picture = has_mark(picture, PICTURE_MARK);
-  write_whole_file(folder + "/session.csv", grasps_csv(report), false);
-  write_whole_file(folder + "/states.csv", states_csv(report), false);
+  write_whole_file(folder + "/session.csv", device::grasps_csv(report), false);
+  write_whole_file(folder + "/states.csv", device::states_csv(report), false);
   if (has_own_picture) std::remove(picture.c_str());  // of another recording
-  return recording.ticks.empty() ? "" : write_pictures({{picture, session_picture(recording, report)}});
+  return recording.ticks.empty() ? "" : write_pictures({{picture, device::session_picture(recording, report)}});
 }
 
 ExitCode report_recording(const SessionArguments& arguments) {
-  const Recording recording = read_recording(arguments.recordings.front());
+  const device::Recording recording = device::read_recording(arguments.recordings.front());
   if (!arguments.folder.empty()) {
     make_output_folder(arguments.folder);
     check_folder_files(arguments.folder, "session", TABLES, {&PICTURE, 1});
   }
   if (!recording.note.empty()) print_note(recording.note);
-  const SessionReport report = report_session(recording);
+  const device::SessionReport report = device::report_session(recording);
   const std::string error = arguments.folder.empty() ? "" : write_session_files(arguments.folder, recording, report);
-  print(arguments.json ? session_json(report) + "\n" : session_table(report));
+  print(arguments.json ? device::session_json(report) + "\n" : device::session_table(report));
   if (!error.empty()) throw failure_error("session: " + error);
   return ExitCode::done;
 }

@@ -37,7 +37,7 @@ struct WallArguments {
 };
 
 ExitCode wall(const WallArguments& arguments) {
-  WallDevice device;
+  device::WallDevice device;
   device.mass = parse_quantity(arguments.mass, "--mass-kg", wall_ranges::MASS);
   device.damping = parse_quantity(arguments.damping, "--damping-Nspm", wall_ranges::DAMPING);
   device.rate = parse_quantity(arguments.rate, "--rate-hz", wall_ranges::RATE);
@@ -53,8 +53,8 @@ ExitCode wall(const WallArguments& arguments) {
     device.finger_damping = finger[1];
     device.finger_stiffness = finger[2];
   }
-  const WallLimits limits = wall_limits(device);
-  print(arguments.json ? wall_json(limits) : wall_table(device, limits));
+  const device::WallLimits limits = device::wall_limits(device);
+  print(arguments.json ? device::wall_json(limits) : device::wall_table(device, limits));
   return ExitCode::done;
 }
 

@@ -25,19 +25,19 @@ constexpr const char* SHARD_LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNO
 constexpr std::size_t MOST_SHARD_LETTERS = 100;  // a file's name has 255 at most, and the result's own comes before
 
 struct SweepArguments {
-  std::string scene, output, on = ON_AUTO, precision, best, glb, threads, time_limit, mark_seconds, shard;
+  std::string scene, output, on = sweeps::ON_AUTO, precision, best, glb, threads, time_limit, mark_seconds, shard;
   bool resume = false, explain = false, no_refine = false, shards = false;
   ListArguments list;
 };
 
 ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
-  SweepOptions options;
+  sweeps::SweepOptions options;
   options.output = arguments.output;
   options.on = arguments.on;
   if (!arguments.precision.empty()) options.precision = parse_precision(arguments.precision);
   if (!arguments.best.empty()) options.best = static_cast<int>(parse_integer(arguments.best, "--best", ranges::BEST));
   options.list = arguments.list.view();
-  check_rank_by(arguments.list.by);
+  sweeps::check_rank_by(arguments.list.by);
   options.rank_by = arguments.list.by;
   if (!arguments.glb.empty()) options.glb = static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (!arguments.threads.empty())
@@ -98,9 +98,10 @@ CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Sweep
 }  // namespace
 
 void add_sweep_command(CLI::App& app, Action& action) {
-  add_command(
-      app, action, std::make_shared<SweepArguments>(),
-      [](const std::function<Scene()>& read_scene, const SweepOptions& options) { return run_sweep(read_scene(), options); });
+  add_command(app, action, std::make_shared<SweepArguments>(),
+              [](const std::function<Scene()>& read_scene, const sweeps::SweepOptions& options) {
+                return sweeps::run_sweep(read_scene(), options);
+              });
 }
 
 void add_shared_sweep_command(CLI::App& app, Action& action, const SweepRunner& run) {

@@ -102,7 +102,7 @@ TrialOptions read_options(const TrialsArguments& arguments) {
 ExitCode trials(const TrialsArguments& arguments) {
   TrialOptions options = read_options(arguments);
   const std::string path = is_result(arguments.scene) ? arguments.scene : find_scene(arguments.scene);
-  std::optional<SweepResult> result;
+  std::optional<sweeps::SweepResult> result;
   if (is_result(path)) result.emplace(path);
   Scene scene = result ? whole_scene_of_result(*result) : read_scene_file(path);
   if (!arguments.vessel.empty()) options.vessel = find_vessel(scene, arguments.vessel);

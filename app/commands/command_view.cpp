@@ -60,9 +60,9 @@ void check_is_recording(const std::string& path) {
 }
 
 void view_recording(const std::string& path, int port) {
-  Recording recording = read_recording(path);
+  device::Recording recording = device::read_recording(path);
   if (!recording.note.empty()) print_note(recording.note);
-  Scene scene = scene_of_recording(recording.info);
+  Scene scene = device::scene_of_recording(recording.info);
   follow_moved_scene(scene, path);
   load_meshes(scene);
   const RecordingView view(scene, std::move(recording));
@@ -70,26 +70,27 @@ void view_recording(const std::string& path, int port) {
 }
 
 void view_result(const std::string& path, const std::string& list_file, int port) {
-  SweepResult result(path);
+  sweeps::SweepResult result(path);
   const Scene scene = whole_scene_of_result(result);
-  const Plan plan(scene, keeps_vectors(result.variables()));
+  const sweeps::Plan plan(scene, sweeps::keeps_vectors(result.variables()));
   result.use(scene, plan);
   if (list_file.empty() && !result.lists_best())
     throw usage_error(fmt::format("{}: this result lists no best grips; sweep with --best 1 or more", path));
-  const GripLists lists = list_file.empty() ? lists_of_sweep(result, scene, plan) : read_grip_lists(list_file, result, scene, plan);
+  const sweeps::GripLists lists =
+      list_file.empty() ? sweeps::lists_of_sweep(result, scene, plan) : sweeps::read_grip_lists(list_file, result, scene, plan);
   std::vector<ViewedGrip> grips;
   std::vector<std::string> notes;
   for (std::size_t k = 0; k < lists.size(); ++k) {
-    const std::string name = list_name(scene, plan, k);
+    const std::string name = sweeps::list_name(scene, plan, k);
     const std::size_t vessel = k / plan.hand_scales(), shown = std::min(lists[k].size(), MOST_SHOWN);
     const auto refined =
-        list_file.empty() ? result.refined(vessel, k % plan.hand_scales()) : std::vector<std::optional<RefinedGrip>>{};
-    const auto robust = list_file.empty() ? result.robust(vessel, k % plan.hand_scales()) : std::vector<RobustScore>{};
+        list_file.empty() ? result.refined(vessel, k % plan.hand_scales()) : std::vector<std::optional<sweeps::RefinedGrip>>{};
+    const auto robust = list_file.empty() ? result.robust(vessel, k % plan.hand_scales()) : std::vector<sweeps::RobustScore>{};
     if (shown < lists[k].size())
       notes.push_back(
           fmt::format("{}: the first {} of {} are shown", name, readable_number(shown), readable_number(lists[k].size())));
     for (std::size_t i = 0; i < shown; ++i) {
-      const RankedCandidate& ranked = lists[k][i];
+      const sweeps::RankedCandidate& ranked = lists[k][i];
       ViewedGrip grip{vessel, plan.grip(vessel, ranked.candidate.index), fmt::format("{}, rank {}", name, ranked.rank)};
       if (!list_file.empty()) grip.score = ranked.candidate.score;
       if (i < refined.size() && refined[i]) grip.refined = RefinedView{refined[i]->grip, refined[i]->score};
@@ -99,7 +100,7 @@ void view_result(const std::string& path, const std::string& list_file, int port
   }
   const GripsView view(scene, grips, notes);
   for (const std::string& note : notes) print_note("view: " + note);
-  serve_view(view.content(file_name(path), scene_axes(scene, grips.empty() ? 0 : grips.front().vessel)), port, false);
+  serve_view(view.content(file_name(path), sweeps::scene_axes(scene, grips.empty() ? 0 : grips.front().vessel)), port, false);
 }
 
 ExitCode view(const ViewArguments& arguments) {
@@ -117,8 +118,8 @@ ExitCode view(const ViewArguments& arguments) {
 
 }  // namespace
 
-void view_grip(const Scene& scene, std::size_t vessel, const GripInput& grip, const std::string& label, const StateAxes& axes,
-               int port, bool has_json) {
+void view_grip(const Scene& scene, std::size_t vessel, const GripInput& grip, const std::string& label,
+               const sweeps::StateAxes& axes, int port, bool has_json) {
   std::vector<std::string> notes;
   const GripsView view(scene, {{vessel, grip, label}}, notes);
   serve_view(view.content(scene.name, axes), port, has_json);

@@ -17,7 +17,7 @@ namespace wholehand {
 using Action = std::function<ExitCode()>;
 
 // Sweeps the scene that `read_scene` returns.
-using SweepRunner = std::function<ExitCode(const std::function<Scene()>& read_scene, const SweepOptions& options)>;
+using SweepRunner = std::function<ExitCode(const std::function<Scene()>& read_scene, const sweeps::SweepOptions& options)>;
 
 void add_sweep_command(CLI::App& app, Action& action);                                 // by this process alone
 void add_shared_sweep_command(CLI::App& app, Action& action, const SweepRunner& run);  // by many

@@ -71,9 +71,9 @@ void print_devices() {
   print("core  the reference, double precision, all threads  <- --on core\n");
 }
 
-std::string gripper_lines(const std::vector<GripperFound>& found) {
+std::string gripper_lines(const std::vector<device::GripperFound>& found) {
   std::string lines;
-  for (const GripperFound& gripper : found) {
+  for (const device::GripperFound& gripper : found) {
     const std::string missing = gripper.missing + remedy_words(gripper.remedy);
     if (gripper.address.empty()) {
       lines += fmt::format("{}  cannot be opened: {}\n", gripper.name, missing);

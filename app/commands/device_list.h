@@ -13,6 +13,6 @@ namespace wholehand {
 void print_devices();
 
 // Grippers as lines for people, each ended.
-std::string gripper_lines(const std::vector<GripperFound>& found);
+std::string gripper_lines(const std::vector<device::GripperFound>& found);
 
 }  // namespace wholehand

@@ -17,8 +17,8 @@ struct ListArguments {
   bool is_wide = false;
 
   // Throws Error (usage). `by` is the default.
-  ListView view() const {
-    ListView view;
+  sweeps::ListView view() const {
+    sweeps::ListView view;
     if (!rows.empty()) view.rows = static_cast<std::size_t>(parse_integer(rows, "--list", {1, ranges::BEST.high}));
     view.is_wide = is_wide;
     return view;

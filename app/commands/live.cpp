@@ -34,7 +34,7 @@ namespace {
 constexpr const char* REPLAY = "replay:";
 constexpr const char* RECORD = "--record";
 
-GripperLimits limits_of(const RecordedDevice& device, const std::string& address) {
+device::GripperLimits limits_of(const device::RecordedDevice& device, const std::string& address) {
   return {"recording of " + device.name, address, device.force, device.grip, device.gap, device.rate, device.has_rotation,
           device.is_left_handed};
 }
@@ -52,13 +52,13 @@ std::string default_advice_device() {
   }
 }
 
-std::unique_ptr<LiveAdvice> make_advice(const Scene& scene, const LiveOptions& options) {
+std::unique_ptr<device::LiveAdvice> make_advice(const Scene& scene, const LiveOptions& options) {
   const std::string on = options.advise_on.empty() ? default_advice_device() : options.advise_on;
   try {
-    if (!options.no_clock) return std::make_unique<AdviceLoop>(scene, on, 0, options.follow_advice);
-    SteppedAdvice::Options stepped;
+    if (!options.no_clock) return std::make_unique<device::AdviceLoop>(scene, on, 0, options.follow_advice);
+    device::SteppedAdvice::Options stepped;
     stepped.keeps_line = options.follow_advice;
-    return std::make_unique<SteppedAdvice>(scene, on, stepped);
+    return std::make_unique<device::SteppedAdvice>(scene, on, stepped);
   } catch (const Error& error) {
     // the remedy's usual words name an option that live lacks
     const char* remedy = error.remedy == Remedy::core      ? "; use --advise-on core"
@@ -73,12 +73,12 @@ std::unique_ptr<LiveAdvice> make_advice(const Scene& scene, const LiveOptions& o
 class LiveCommand {
  public:
   explicit LiveCommand(const LiveOptions& options) : options_(options), displays_(options_) {
-    if (!options_.record.empty()) check_recording_path(options_.record, RECORD);
+    if (!options_.record.empty()) device::check_recording_path(options_.record, RECORD);
     open();
     check_gripper();
     run_.emplace(scene_, *gripper_,
-                 LiveRunOptions{options_.seconds, !options_.no_clock, options_.json, options_.record, RECORD, options_.seed,
-                                options_.person, advice_.get()});
+                 device::LiveRunOptions{options_.seconds, !options_.no_clock, options_.json, options_.record, RECORD, options_.seed,
+                                        options_.person, advice_.get()});
     for (const std::string& line : notes_) run_->add_note(line);
     displays_.open(*run_, scene_, gripper_->limits(),
                    input_.get());  // before the recording, so that a taken port leaves none behind
@@ -117,33 +117,34 @@ class LiveCommand {
     if (options_.device == REPLAY) throw usage_error("--device replay: the recording is missing; give --device replay:FILE");
     if (is_replay && !options_.scene.empty())
       notes_.push_back("the replay uses another scene: the forces are those of this scene, not the recorded forces");
-    std::optional<Recording> recording;
+    std::optional<device::Recording> recording;
     const std::string replayed = is_replay ? options_.device.substr(std::string(REPLAY).size()) : "";
-    if (is_replay) recording = read_recording(replayed);
+    if (is_replay) recording = device::read_recording(replayed);
     if (recording && options_.scene.empty()) {
-      scene_ = scene_of_recording(recording->info);
+      scene_ = device::scene_of_recording(recording->info);
       follow_moved_scene(scene_, replayed);
       options_.seed = recording->info.seed;
       options_.person = recording->info.person;
     } else {
       scene_ = read_scene_file(find_scene(options_.scene.empty() ? DEFAULT_LIVE_SCENE : options_.scene));
-      if (options_.person) take_hand_of(scene_, options_.seed, *options_.person);
+      if (options_.person) device::take_hand_of(scene_, options_.seed, *options_.person);
     }
     load_meshes(scene_);
     check_places();
-    print_cavity_notes(scene_);
+    sweeps::print_cavity_notes(scene_);
     if (recording) scene_.live.rate = recording->info.rate;
     if (options_.rate > 0) scene_.live.rate = options_.rate;
     if (options_.advise) advice_ = make_advice(scene_, options_);  // the simulated user may follow it
-    ShownGripSource* const shown = options_.follow_advice ? &advice_->shown() : nullptr;
+    device::ShownGripSource* const shown = options_.follow_advice ? &advice_->shown() : nullptr;
     if (recording) {
       if (!recording->note.empty()) notes_.push_back(recording->note);
-      gripper_ = make_replay(std::move(recording->ticks), limits_of(recording->info.device, options_.device));
+      gripper_ = device::make_replay(std::move(recording->ticks), limits_of(recording->info.device, options_.device));
     } else {
-      if (options_.view && options_.device == "view") input_ = std::make_unique<ViewInput>(scene_);
-      gripper_ = options_.person ? open_sim(scene_, options_.seed,
-                                            Participant(scene_.people, options_.seed, *options_.person, Experiment::live), shown)
-                 : shown         ? open_sim(scene_, options_.seed, shown)
+      if (options_.view && options_.device == "view") input_ = std::make_unique<device::ViewInput>(scene_);
+      gripper_ = options_.person
+                     ? device::open_sim(scene_, options_.seed,
+                                        Participant(scene_.people, options_.seed, *options_.person, Experiment::live), shown)
+                 : shown ? device::open_sim(scene_, options_.seed, shown)
                          : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get(),
                                         [](const std::string& line) { print_note("live: " + line); });
     }
@@ -157,13 +158,13 @@ class LiveCommand {
   // If vessels overlap only because they have no places: names the shipped scenes that have places.
   void check_places() const {
     try {
-      const LiveScene placed(scene_);
+      const device::LiveScene placed(scene_);
     } catch (const Error& error) {
       if (error.code != ExitCode::usage || has_places(scene_)) throw;
       constexpr double FAR_APART = 100;  // m
       Scene apart = scene_;
       for (std::size_t v = 0; v < apart.vessels.size(); ++v) apart.vessels[v].place = {FAR_APART * static_cast<double>(v), 0, 0};
-      const LiveScene of_other_causes(apart);  // throws what places do not mend
+      const device::LiveScene of_other_causes(apart);  // throws what places do not mend
       std::vector<std::string> placed;
       for (const std::string& name : shipped_scenes())
         if (has_places(read_scene_file(find_scene(name)))) placed.push_back(name);
@@ -174,9 +175,9 @@ class LiveCommand {
 
   // Whether this gripper works with this scene. Nobody holds a recording, and nobody feels the page.
   void check_gripper() {
-    const GripperLimits& limits = gripper_->limits();
+    const device::GripperLimits& limits = gripper_->limits();
     if (is_replay_ || input_) return;
-    refuse_unstable_gains(scene_, limits.gap, options_.unsafe_gains);
+    device::refuse_unstable_gains(scene_, limits.gap, options_.unsafe_gains);
     const bool is_left = scene_.hand.handedness == Handedness::left;
     if (limits.is_left_handed != is_left) {
       throw usage_error(fmt::format("{} is for the {} hand, and the scene's [hand] is a {} hand; set handedness = \"{}\" in [hand]",
@@ -190,10 +191,10 @@ class LiveCommand {
   bool is_replay_ = false;
   Scene scene_;
   std::vector<std::string> notes_;
-  std::unique_ptr<LiveAdvice> advice_;  // outlives all that asks it
-  std::unique_ptr<ViewInput> input_;    // of the page if it is the gripper
-  std::unique_ptr<Gripper> gripper_;
-  std::optional<LiveRun> run_;
+  std::unique_ptr<device::LiveAdvice> advice_;  // outlives all that asks it
+  std::unique_ptr<device::ViewInput> input_;    // of the page if it is the gripper
+  std::unique_ptr<device::Gripper> gripper_;
+  std::optional<device::LiveRun> run_;
   LiveDisplays displays_;
 };
 

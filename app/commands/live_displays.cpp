@@ -16,7 +16,7 @@ namespace wholehand {
 namespace {
 
 // `stiffness`: N/m of the hand's gap.
-std::string limits_json(const ViewLimits& limits, double stiffness) {
+std::string limits_json(const device::ViewLimits& limits, double stiffness) {
   return json_text(nlohmann::json{
       {"gap", limits.gap},
       {"center", limits.center},
@@ -44,12 +44,12 @@ LiveDisplays::LiveDisplays(const LiveOptions& options) : options_(options) {
   refuse_own_port(options_, *target_);
 }
 
-void LiveDisplays::open(LiveRun& run, const Scene& scene, const GripperLimits& gripper, ViewInput* input) {
+void LiveDisplays::open(device::LiveRun& run, const Scene& scene, const device::GripperLimits& gripper, device::ViewInput* input) {
   if (target_) open_stream(run);
   if (options_.view) open_view(run, scene, gripper, input);
 }
 
-void LiveDisplays::open_stream(LiveRun& run) {
+void LiveDisplays::open_stream(device::LiveRun& run) {
   stream_.emplace(*target_, run.live());
   run.add(*stream_);
   if (stream_->note().empty()) return;
@@ -57,7 +57,8 @@ void LiveDisplays::open_stream(LiveRun& run) {
   run.add_note(stream_->note());
 }
 
-void LiveDisplays::open_view(LiveRun& run, const Scene& scene, const GripperLimits& gripper, ViewInput* input) {
+void LiveDisplays::open_view(device::LiveRun& run, const Scene& scene, const device::GripperLimits& gripper,
+                             device::ViewInput* input) {
   ViewFacts facts;
   facts.title = scene.name;
   facts.device = gripper.name;

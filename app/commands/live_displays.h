@@ -23,13 +23,13 @@ class LiveDisplays {
   explicit LiveDisplays(const LiveOptions& options);
   // Adds those that the options ask for to the run. The view listens from here on. `input`: what the page controls, or null; it and the run must
   // outlive the object.
-  void open(LiveRun& run, const Scene& scene, const GripperLimits& gripper, ViewInput* input);
+  void open(device::LiveRun& run, const Scene& scene, const device::GripperLimits& gripper, device::ViewInput* input);
   // The view's window, if there is a view.
   void open_window();
 
  private:
-  void open_stream(LiveRun& run);
-  void open_view(LiveRun& run, const Scene& scene, const GripperLimits& gripper, ViewInput* input);
+  void open_stream(device::LiveRun& run);
+  void open_view(device::LiveRun& run, const Scene& scene, const device::GripperLimits& gripper, device::ViewInput* input);
 
   const LiveOptions& options_;
   std::optional<HostPort> target_;
@@ -40,7 +40,7 @@ class LiveDisplays {
 #else
 struct LiveDisplays {
   explicit LiveDisplays(const LiveOptions&) {}
-  void open(LiveRun&, const Scene&, const GripperLimits&, ViewInput*) {}
+  void open(device::LiveRun&, const Scene&, const device::GripperLimits&, device::ViewInput*) {}
   void open_window() {}
 };
 #endif

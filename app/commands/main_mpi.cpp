@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   using namespace wholehand;
   std::signal(SIGXFSZ, SIG_IGN);      // a file that grows past its limit makes the write fail, here also for MPI's own files
   InterruptGuard interrupt(SIGUSR1);  // from here on; a cluster's warning may come while ranks still find each other
-  Team team(argc, argv);
+  sweeps::Team team(argc, argv);
   Program program;
   program.name = "wholehand-mpi";
   program.description =
@@ -26,12 +26,12 @@ int main(int argc, char** argv) {
   Error own = usage_error("no sweep is asked for here; start the same on every node");
   program.on_failure = [&own](ExitCode code, const std::string& line) { own = Error(code, line); };
   program.add_commands = [&](CLI::App& app, Action& action) {
-    add_shared_sweep_command(app, action, [&](const std::function<Scene()>& read_scene, const SweepOptions& options) {
+    add_shared_sweep_command(app, action, [&](const std::function<Scene()>& read_scene, const sweeps::SweepOptions& options) {
       has_begun = true;
-      return run_cluster_sweep(team, read_scene, options, interrupt);
+      return sweeps::run_cluster_sweep(team, read_scene, options, interrupt);
     });
   };
   const int code = run_program(argc, argv, program);
-  if (!has_begun) leave_cluster_sweep(team, own);
+  if (!has_begun) sweeps::leave_cluster_sweep(team, own);
   return code;
 }

@@ -51,24 +51,25 @@ std::optional<HostPort> osc_place(const std::string& device) {
   return parse_osc_place(device.substr(OSC.size()));
 }
 
-std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library,
-                                      double watchdog, ViewInput* view, const std::function<void(const std::string&)>& say) {
+std::unique_ptr<device::Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed,
+                                              const std::string& library, double watchdog, device::ViewInput* view,
+                                              const std::function<void(const std::string&)>& say) {
   const std::size_t colon = device.find(':');
   const std::string kind = device.substr(0, colon), which = colon == std::string::npos ? "" : device.substr(colon + 1);
   const bool is_bare = colon == std::string::npos;
-  if (device == "sim") return open_sim(scene, seed);
+  if (device == "sim") return device::open_sim(scene, seed);
   if (device == "view") {
     if (!view)
       throw usage_error(std::string("--device view: the page of the view is the gripper, and there is no view; ") + NO_VIEW);
-    return open_view(scene, *view);
+    return device::open_view(scene, *view);
   }
-  if (kind == "hid" && (is_bare || !which.empty())) return open_hid(which, watchdog);
-  if (kind == "usb" && (is_bare || !which.empty())) return open_usb(which, watchdog);
+  if (kind == "hid" && (is_bare || !which.empty())) return device::open_hid(which, watchdog);
+  if (kind == "usb" && (is_bare || !which.empty())) return device::open_usb(which, watchdog);
   if (kind == "omega" && (is_bare || !which.empty())) {
     const int number = is_bare ? 0 : static_cast<int>(parse_integer(which, "--device omega", OMEGA_NUMBER));
-    return open_omega(library.empty() ? scene.device.library : library, watchdog, number);
+    return device::open_omega(library.empty() ? scene.device.library : library, watchdog, number);
   }
-  if (const std::optional<HostPort> place = osc_place(device)) return open_osc(*place, scene, say);
+  if (const std::optional<HostPort> place = osc_place(device)) return device::open_osc(*place, scene, say);
   throw usage_error(
       fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, osc:PORT or "
                   "osc:HOST:PORT; `wholehand devices` lists what is there",

@@ -24,8 +24,8 @@ std::optional<HostPort> osc_place(const std::string& device);
 // (device/recordings/recording.h). `library`: of Force Dimension's SDK, empty: searched for; `watchdog` in s; `view`: input of the page's controls,
 // which must outlive the gripper; null: there is no page; `say` gets lines for the user while a gripper is awaited. Throws Error: (usage) another
 // name, listing the allowed ones, or no page; (failure) opening fails.
-std::unique_ptr<Gripper> open_gripper(
+std::unique_ptr<device::Gripper> open_gripper(
     const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library, double watchdog = WATCHDOG,
-    ViewInput* view = nullptr, const std::function<void(const std::string&)>& say = [](const std::string&) {});
+    device::ViewInput* view = nullptr, const std::function<void(const std::string&)>& say = [](const std::string&) {});
 
 }  // namespace wholehand

@@ -35,27 +35,28 @@ struct RecordedSessions {
   bool are_simulated = true;  // all were made by virtual people
 };
 
-bool has_same_vessels(const RecordingInfo& a, const RecordingInfo& b) {
-  return std::equal(a.vessels.begin(), a.vessels.end(), b.vessels.begin(), b.vessels.end(),
-                    [](const RecordedVessel& x, const RecordedVessel& y) { return x.name == y.name && x.liquid == y.liquid; });
+bool has_same_vessels(const device::RecordingInfo& a, const device::RecordingInfo& b) {
+  return std::equal(
+      a.vessels.begin(), a.vessels.end(), b.vessels.begin(), b.vessels.end(),
+      [](const device::RecordedVessel& x, const device::RecordedVessel& y) { return x.name == y.name && x.liquid == y.liquid; });
 }
 
 // Also where neither is known.
 bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 // People of one study should have felt the same forces.
-void note_differences(const RecordingInfo& first, const RecordingInfo& other, const std::string& path,
+void note_differences(const device::RecordingInfo& first, const device::RecordingInfo& other, const std::string& path,
                       const std::string& first_path) {
-  const bool has_same_ranges =
-      std::equal(first.vessels.begin(), first.vessels.end(), other.vessels.begin(), other.vessels.end(),
-                 [](const RecordedVessel& a, const RecordedVessel& b) { return is_same(a.force_range, b.force_range); });
+  const bool has_same_ranges = std::equal(
+      first.vessels.begin(), first.vessels.end(), other.vessels.begin(), other.vessels.end(),
+      [](const device::RecordedVessel& a, const device::RecordedVessel& b) { return is_same(a.force_range, b.force_range); });
   if (is_same(first.force_base, other.force_base) && is_same(first.force_max, other.force_max) && has_same_ranges) return;
   print_note(fmt::format("{}: F_base, F_max or an F_range differ from those of {}; both count alike", path, first_path));
 }
 
-std::vector<GraspReport> grasps_of(const Recording& recording) {
-  GraspCollector collector(recording.info.rate, recording.info.force_max);
-  for (const Tick& tick : recording.ticks) collector.add(tick);
+std::vector<device::GraspReport> grasps_of(const device::Recording& recording) {
+  device::GraspCollector collector(recording.info.rate, recording.info.force_max);
+  for (const device::Tick& tick : recording.ticks) collector.add(tick);
   return collector.finish();
 }
 
@@ -70,11 +71,11 @@ void check_is_another(const std::vector<std::string>& paths, std::size_t k) {
 // One recording at a time is in memory.
 RecordedSessions read_sessions(const std::vector<std::string>& paths) {
   RecordedSessions sessions;
-  std::optional<RecordingInfo> first;
+  std::optional<device::RecordingInfo> first;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const std::string& path = paths[k];
     check_is_another(paths, k);
-    const Recording recording = read_recording(path);
+    const device::Recording recording = device::read_recording(path);
     if (!recording.note.empty()) print_note(recording.note);
     if (!first) {
       first = recording.info;
@@ -110,8 +111,9 @@ std::string grasps_line(const RecordedSessions& sessions) {
   for (const SessionVessel& vessel : sessions.vessels) {
     std::ptrdiff_t grasps = 0;
     for (const SessionSubject& subject : sessions.subjects)
-      grasps += std::count_if(subject.grasps.begin(), subject.grasps.end(),
-                              [&vessel](const GraspReport& grasp) { return grasp.vessel == static_cast<int>(vessel.place); });
+      grasps += std::count_if(subject.grasps.begin(), subject.grasps.end(), [&vessel](const device::GraspReport& grasp) {
+        return grasp.vessel == static_cast<int>(vessel.place);
+      });
     line += fmt::format("{} {}: {}", vessel.name == sessions.vessels.front().name ? "" : ",", vessel.name, grasps);
   }
   return line + "\n";

@@ -10,7 +10,7 @@
 namespace wholehand {
 
 // Shows one grip in the browser until a signal. `port`: 0 is any free port. The address goes to standard error if standard output has JSON.
-void view_grip(const Scene& scene, std::size_t vessel, const GripInput& grip, const std::string& label, const StateAxes& axes,
-               int port, bool has_json);
+void view_grip(const Scene& scene, std::size_t vessel, const GripInput& grip, const std::string& label,
+               const sweeps::StateAxes& axes, int port, bool has_json);
 
 }  // namespace wholehand

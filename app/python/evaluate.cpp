@@ -31,21 +31,22 @@ constexpr std::chrono::milliseconds SIGNALS_EVERY{50};  // between two checks fo
 
 // The destination of one variable's values: an array of (grips, values of a grip), C-contiguous.
 struct Output {
-  const Variable* variable = nullptr;
+  const sweeps::Variable* variable = nullptr;
   int plane = 0;           // first
   std::size_t values = 1;  // of a grip
   py::array array;
   void* data = nullptr;
 };
 
-py::dtype type_of(const Variable& variable, Precision precision) {
-  if (variable.type == NumberType::real) return precision == Precision::single ? py::dtype::of<float>() : py::dtype::of<double>();
+py::dtype type_of(const sweeps::Variable& variable, Precision precision) {
+  if (variable.type == sweeps::NumberType::real)
+    return precision == Precision::single ? py::dtype::of<float>() : py::dtype::of<double>();
   const bool is_mask = variable.bits > 0;
-  if (variable.type == NumberType::byte) return is_mask ? py::dtype::of<std::uint8_t>() : py::dtype::of<std::int8_t>();
+  if (variable.type == sweeps::NumberType::byte) return is_mask ? py::dtype::of<std::uint8_t>() : py::dtype::of<std::int8_t>();
   return is_mask ? py::dtype::of<std::uint32_t>() : py::dtype::of<std::int32_t>();
 }
 
-std::vector<py::ssize_t> shape_of(const Variable& variable, const Scene& scene, std::size_t count) {
+std::vector<py::ssize_t> shape_of(const sweeps::Variable& variable, const Scene& scene, std::size_t count) {
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count)};
   for (const std::string_view dim : variable.dims) {
     const std::size_t length = dim == "fill"    ? scene_fills(scene)
@@ -61,11 +62,11 @@ std::vector<py::ssize_t> shape_of(const Variable& variable, const Scene& scene, 
 std::vector<Output> make_outputs(const Batch& batch, const Scene& scene, std::size_t count) {
   const FieldSet& fields = batch.backend->fields();
   std::vector<Output> outputs;
-  for (const Variable* variable : batch.variables) {
+  for (const sweeps::Variable* variable : batch.variables) {
     Output output;
     output.variable = variable;
     output.plane = fields.plane[static_cast<std::size_t>(variable->field)] + variable->plane;
-    output.values = variable_planes(*variable, scene);
+    output.values = sweeps::variable_planes(*variable, scene);
     output.array = py::array(type_of(*variable, batch.backend->info().precision), shape_of(*variable, scene, count));
     output.data = output.array.mutable_data();
     outputs.push_back(std::move(output));
@@ -100,7 +101,7 @@ void put_rounded(const Output& output, const PlaneChunk& chunk) {
 
 template <class Number>
 void put_words(const Output& output, const PlaneChunk& chunk, int status) {
-  const Variable& variable = *output.variable;
+  const sweeps::Variable& variable = *output.variable;
   auto* to = static_cast<Number*>(output.data) + chunk.first;
   for (std::size_t i = 0; i < chunk.count; ++i) {
     const bool exists = variable.always || is_feasible(chunk.uint(status, i));
@@ -109,14 +110,14 @@ void put_words(const Output& output, const PlaneChunk& chunk, int status) {
 }
 
 void put(const Output& output, const PlaneChunk& chunk, const FieldSet& fields, Precision precision) {
-  const Variable& variable = *output.variable;
-  if (variable.type == NumberType::real) {
+  const sweeps::Variable& variable = *output.variable;
+  if (variable.type == sweeps::NumberType::real) {
     if (chunk.floats) return put_reals(output, chunk, chunk.floats);
     return precision == Precision::single ? put_rounded(output, chunk) : put_reals(output, chunk, chunk.doubles);
   }
   const int status = fields.plane[FIELD_STATUS];
   const bool is_mask = variable.bits > 0;
-  if (variable.type == NumberType::byte)
+  if (variable.type == sweeps::NumberType::byte)
     return is_mask ? put_words<std::uint8_t>(output, chunk, status) : put_words<std::int8_t>(output, chunk, status);
   return is_mask ? put_words<std::uint32_t>(output, chunk, status) : put_words<std::int32_t>(output, chunk, status);
 }
@@ -171,19 +172,20 @@ void run_batch(Batch& batch, std::size_t vessel, const GripColumns& grips, const
 std::string resolved_backend(const SceneHandle& handle, std::uint64_t grips,
                              const std::optional<std::vector<std::string>>& variables, const std::string& on,
                              const std::optional<std::string>& precision, int threads) {
-  if (on != ON_AUTO) {
+  if (on != sweeps::ON_AUTO) {
     prepare_device(on);
     return on;
   }
   const Scene& scene = handle.described();
-  Workload work = workload_of(scene, variables ? named_variables(scene, *variables, "variables") : choose_variables(scene), grips);
+  sweeps::Workload work = sweeps::workload_of(
+      scene, variables ? sweeps::named_variables(scene, *variables, "variables") : sweeps::choose_variables(scene), grips);
   work.is_robust = false;  // there are no lists
-  if (!pays_for_device(work, threads) || is_forked_from_device()) return "core";
+  if (!sweeps::pays_for_device(work, threads) || is_forked_from_device()) return "core";
   prepare_vulkan_environment(on);
   std::string chosen;
   {
     const py::gil_scoped_release other_threads;
-    chosen = choose_backend(work, threads, precision_of(precision, "core")).on;
+    chosen = sweeps::choose_backend(work, threads, precision_of(precision, "core")).on;
   }
   prepare_device(chosen);
   return chosen;
@@ -204,7 +206,7 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
     try {
       batch = handle.batch(spec);
     } catch (const Error&) {
-      if (asked_on != ON_AUTO || on == "core") throw;
+      if (asked_on != sweeps::ON_AUTO || on == "core") throw;
       spec.on = on = "core";  // an error that is not the device's is rethrown
       batch = handle.batch(spec);
     }
@@ -221,7 +223,7 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
 std::vector<Candidate> choose_different(const Evaluator& core, std::size_t vessel, const GripColumns& grips, std::size_t count,
                                         double apart, const std::atomic<bool>& stop) {
   constexpr std::size_t MOST_AT_ONCE = 4096;
-  DifferentGrips chosen(count, apart);
+  sweeps::DifferentGrips chosen(count, apart);
   std::size_t block = 64;
   for (std::size_t first = 0; first < grips.count() && !chosen.is_full() && !stop; first += block) {
     block = first == 0 ? block : std::min({2 * block, MOST_AT_ONCE, first});
@@ -257,18 +259,18 @@ py::tuple rank_by_robust_scores(SceneHandle& handle, std::size_t vessel, const G
   with_signals(stop, [&] {
     grips.check(stop);
     const Scene& scene = handle.whole("core");
-    const Plan plan(scene, false);
-    std::vector<std::vector<BestGrip>> lists(scene.vessels.size() * plan.hand_scales());
+    const sweeps::Plan plan(scene, false);
+    std::vector<std::vector<sweeps::BestGrip>> lists(scene.vessels.size() * plan.hand_scales());
     const std::size_t own = vessel * plan.hand_scales();
     for (std::size_t i = 0; i < grips.count(); ++i) {
       lists[own].emplace_back().candidate.index = i;
       lists[own].back().grip = grips.grip(i);
     }
-    const OpenBackend open = [](const Scene& other, const FieldSet& fields) {
+    const sweeps::OpenBackend open = [](const Scene& other, const FieldSet& fields) {
       return open_backend(other, fields, "core", Precision::full, 0);
     };
-    if (!rank_robustly(open, scene, plan, best, &stop, lists)) return;
-    for (const BestGrip& grip : lists[own]) {
+    if (!sweeps::rank_robustly(open, scene, plan, best, &stop, lists)) return;
+    for (const sweeps::BestGrip& grip : lists[own]) {
       places.push_back(static_cast<std::size_t>(grip.candidate.index));
       lows.push_back(grip.robust.low);
       means.push_back(grip.robust.mean);

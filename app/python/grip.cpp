@@ -53,7 +53,7 @@ GripNumbers grip_at(double height, double azimuth, double obliquity, double roll
 
 GripNumbers grip_between(const std::array<double, 3>& thumb, const std::array<double, 3>& index, double roll, double hand_scale) {
   const double turn = quantity(roll, "--roll-deg", ranges::ROTATION), scale = quantity(hand_scale, "--hand-scale", ranges::SCALE);
-  return grip_columns(grip_through(point(thumb, "--thumb-mm"), point(index, "--index-mm"), turn, scale));
+  return grip_columns(sweeps::grip_through(point(thumb, "--thumb-mm"), point(index, "--index-mm"), turn, scale));
 }
 
 // The request besides the grip. Fills are fractions; volumes in mL replace them.
@@ -61,8 +61,8 @@ struct StateSpec {
   std::optional<std::vector<double>> fills, volumes, tilts;
 };
 
-StateAxes axes_of(const StateSpec& spec, const Scene& scene, std::size_t vessel) {
-  StateAxes axes = scene_axes(scene, vessel);
+sweeps::StateAxes axes_of(const StateSpec& spec, const Scene& scene, std::size_t vessel) {
+  sweeps::StateAxes axes = sweeps::scene_axes(scene, vessel);
   if (spec.tilts) {
     axes.tilts.clear();
     for (const double tilt : *spec.tilts) axes.tilts.push_back(quantity(tilt, "tilts_deg", ranges::TILT));
@@ -93,24 +93,26 @@ class GripHandle {
   GripHandle(Scene scene, std::size_t vessel, const GripInput& grip, const StateSpec& spec, const std::string& on,
              Precision precision, bool has_quality)
       : scene_(std::move(scene)), vessel_(vessel) {
-    const StateAxes axes = axes_of(spec, scene_, vessel);
+    const sweeps::StateAxes axes = axes_of(spec, scene_, vessel);
     read_meshes(grip, on);
-    report_ = make_grip_report(scene_, vessel, grip, axes, open_grip_methods(scene_, on, precision));
-    add_holding(report_, scene_, vessel);
-    if (has_quality) add_quality(report_, scene_, vessel);
+    report_ = sweeps::make_grip_report(scene_, vessel, grip, axes, sweeps::open_grip_methods(scene_, on, precision));
+    sweeps::add_holding(report_, scene_, vessel);
+    if (has_quality) sweeps::add_quality(report_, scene_, vessel);
   }
 
-  std::string json() const { return grip_json(report_); }
+  std::string json() const { return sweeps::grip_json(report_); }
   std::string table() const {
-    GripReport judged = report_;
-    add_held_share(judged, scene_, vessel_);
-    return grip_verdict(scene_, judged) + "\n" + grip_table(judged);
+    sweeps::GripReport judged = report_;
+    sweeps::add_held_share(judged, scene_, vessel_);
+    return sweeps::grip_verdict(scene_, judged) + "\n" + sweeps::grip_table(judged);
   }
-  std::string svg() const { return grip_svg(scene_, vessel_, report_); }
-  std::string glb() const { return grip_glb(scene_, vessel_, report_); }
+  std::string svg() const { return sweeps::grip_svg(scene_, vessel_, report_); }
+  std::string glb() const { return sweeps::grip_glb(scene_, vessel_, report_); }
 
-  void write_svg(const std::string& path) const { write(path, "--svg", GRIP_SVG_MARK, "drawing of wholehand's", svg()); }
-  void write_glb(const std::string& path) const { write(path, "--glb", GRIP_GLB_MARK, "glTF binary of wholehand's", glb()); }
+  void write_svg(const std::string& path) const { write(path, "--svg", sweeps::GRIP_SVG_MARK, "drawing of wholehand's", svg()); }
+  void write_glb(const std::string& path) const {
+    write(path, "--glb", sweeps::GRIP_GLB_MARK, "glTF binary of wholehand's", glb());
+  }
 
  private:
   // Lattices extend as far as this hand needs.
@@ -127,21 +129,21 @@ class GripHandle {
 
   void write(const std::string& path, const char* option, std::string_view mark, const char* what, const std::string& bytes) const {
     check_output_path(path, option);
-    check_not_the_scene(path, scene_, option);
+    sweeps::check_not_the_scene(path, scene_, option);
     check_overwrites_marked(path, mark, what, option);
     write_whole_file(path, bytes, false);
   }
 
   Scene scene_;
   std::size_t vessel_;
-  GripReport report_;
+  sweeps::GripReport report_;
 };
 
 std::unique_ptr<GripHandle> make_grip(const SceneHandle& handle, std::size_t vessel, const GripNumbers& numbers,
                                       std::optional<std::vector<double>> fills, std::optional<std::vector<double>> volumes,
                                       std::optional<std::vector<double>> tilts, const std::string& asked_on,
                                       const std::optional<std::string>& precision, bool has_quality) {
-  const std::string on = asked_on == ON_AUTO ? "core" : asked_on;
+  const std::string on = asked_on == sweeps::ON_AUTO ? "core" : asked_on;
   prepare_device(on);
   const GripInput grip = input_of(numbers);
   check_grip(grip, "the grip");

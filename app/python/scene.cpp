@@ -38,20 +38,21 @@ constexpr std::string_view KEY_OF_SCENE = ": [output] keep: ";
 }  // namespace
 
 // choose_variables knows what the scene lacks and what to say.
-std::vector<const Variable*> named_variables(const Scene& scene, const std::vector<std::string>& names, const std::string& place) {
+std::vector<const sweeps::Variable*> named_variables(const Scene& scene, const std::vector<std::string>& names,
+                                                     const std::string& place) {
   Scene asked = scene;
   asked.output.keep = names;
   asked.output.keep_place = place;
   try {
-    choose_variables(asked);
+    sweeps::choose_variables(asked);
   } catch (const Error& error) {
     std::string line = error.what();
     if (line.starts_with(place + std::string(KEY_OF_SCENE))) line.replace(place.size(), KEY_OF_SCENE.size(), ": ");
     throw Error(error.code, line, error.remedy);
   }
-  std::vector<const Variable*> variables;
+  std::vector<const sweeps::Variable*> variables;
   for (const std::string& name : names)
-    for (const Variable& variable : variable_catalogue())
+    for (const sweeps::Variable& variable : sweeps::variable_catalogue())
       if (name == variable.name) variables.push_back(&variable);
   return variables;
 }
@@ -90,8 +91,8 @@ std::shared_ptr<Batch> SceneHandle::batch(const BatchSpec& spec) {
   }
   const Scene& scene = whole_locked(spec.on);
   auto made = std::make_shared<Batch>();
-  made->variables = spec.variables ? named_variables(scene, *spec.variables, "variables") : choose_variables(scene);
-  const FieldSet fields = make_field_set(variable_fields(made->variables), scene);
+  made->variables = spec.variables ? named_variables(scene, *spec.variables, "variables") : sweeps::choose_variables(scene);
+  const FieldSet fields = make_field_set(sweeps::variable_fields(made->variables), scene);
   made->backend = open_backend(scene, fields, spec.on, spec.precision, spec.threads);
   batches_.emplace_front(spec, made);
   if (batches_.size() > KEPT_BATCHES) batches_.pop_back();
@@ -102,8 +103,8 @@ std::vector<std::string> SceneHandle::notes() {
   const Scene& scene = whole();
   const std::lock_guard lock(mutex_);
   std::vector<std::string> lines = mesh_notes_;
-  for (const std::string& line : cavity_notes(scene)) lines.push_back(line);
-  if (const std::string line = idle_strength_note(scene); !line.empty()) lines.push_back(line);
+  for (const std::string& line : sweeps::cavity_notes(scene)) lines.push_back(line);
+  if (const std::string line = sweeps::idle_strength_note(scene); !line.empty()) lines.push_back(line);
   return lines;
 }
 
@@ -189,18 +190,18 @@ std::vector<double> fills_of(const SceneHandle& handle, std::size_t vessel) {
 
 // Whether a sweep that keeps these variables computes one azimuth for all.
 bool repeats_azimuths(const SceneHandle& handle, const std::vector<std::string>& names) {
-  std::vector<const Variable*> variables;
-  for (const Variable& variable : variable_catalogue())
+  std::vector<const sweeps::Variable*> variables;
+  for (const sweeps::Variable& variable : sweeps::variable_catalogue())
     if (std::find(names.begin(), names.end(), variable.name) != names.end()) variables.push_back(&variable);
-  return Plan(handle.described(), keeps_vectors(variables)).copies() > 1;
+  return sweeps::Plan(handle.described(), sweeps::keeps_vectors(variables)).copies() > 1;
 }
 
 // Number of hand scales; a sweep makes a list of the grips of each.
-std::size_t hand_scales(const SceneHandle& handle) { return Plan(handle.described(), false).hand_scales(); }
+std::size_t hand_scales(const SceneHandle& handle) { return sweeps::Plan(handle.described(), false).hand_scales(); }
 
 py::list variable_rows(SceneHandle& handle) {
-  std::vector<const Variable*> known;
-  for (const Variable& variable : variable_catalogue()) {
+  std::vector<const sweeps::Variable*> known;
+  for (const sweeps::Variable& variable : sweeps::variable_catalogue()) {
     if (field_planes(variable.field, handle.described()) == 0) continue;
     try {
       named_variables(handle.described(), {variable.name}, "");
@@ -210,10 +211,10 @@ py::list variable_rows(SceneHandle& handle) {
     known.push_back(&variable);
   }
   py::list rows;
-  for (const Variable* variable : known) {
+  for (const sweeps::Variable* variable : known) {
     const std::vector<std::string> dims(variable->dims.begin(), variable->dims.end());
     rows.append(py::make_tuple(variable->name, variable->units, variable->long_name,
-                               variable_comment(*variable, handle.described()), py::tuple(py::cast(dims))));
+                               sweeps::variable_comment(*variable, handle.described()), py::tuple(py::cast(dims))));
   }
   return rows;
 }
@@ -230,7 +231,7 @@ void bind_scene(py::module_& module) {
       .def_property_readonly("apart", [](const SceneHandle& scene) { return scene.described().output.apart; })
       .def_property_readonly("has_robust", [](const SceneHandle& scene) { return scene.described().robust.has_value(); })
       .def("robust_candidates",
-           [](const SceneHandle& scene, std::size_t best) { return robust_candidates(scene.described(), best); })
+           [](const SceneHandle& scene, std::size_t best) { return sweeps::robust_candidates(scene.described(), best); })
       .def_property_readonly("hand_scales", &hand_scales)
       .def_property_readonly("has_effort", [](const SceneHandle& handle) { return has_effort(handle.described()); })
       .def_property_readonly("best", [](const SceneHandle& scene) { return scene.described().output.best; })

@@ -20,7 +20,7 @@ namespace wholehand {
 
 // Evaluates some variables of many grips of a scene. One request at a time.
 struct Batch {
-  std::vector<const Variable*> variables;  // in the order asked
+  std::vector<const sweeps::Variable*> variables;  // in the order asked
   std::unique_ptr<Backend> backend;
   std::timed_mutex in_use;
 };
@@ -67,7 +67,8 @@ class SceneHandle {
 };
 
 // The variables of these names, in order. Throws Error (usage) that begins with `place` if one is unknown or the scene lacks what it needs.
-std::vector<const Variable*> named_variables(const Scene& scene, const std::vector<std::string>& names, const std::string& place);
+std::vector<const sweeps::Variable*> named_variables(const Scene& scene, const std::vector<std::string>& names,
+                                                     const std::string& place);
 
 // Call before opening or using a device: sets the variables that its driver reads from the environment. Hold the interpreter's lock, which guards the
 // environment. Throws Error (failure) in a process that was forked from one with a device.

@@ -49,18 +49,18 @@ Numbers points_of(const std::array<Triple, N>& points) {
 
 // A complete copy of a step's results, since the session may have continued.
 struct Step {
-  std::shared_ptr<const Session> session;
-  Tick tick;
-  VesselPoses poses;
+  std::shared_ptr<const device::Session> session;
+  device::Tick tick;
+  device::VesselPoses poses;
 
-  HandView hand() const { return hand_view(session->live(), tick, poses); }
+  device::HandView hand() const { return device::hand_view(session->live(), tick, poses); }
   // The whole hand's results; NaN if nothing is held.
   double effort() const {
-    const std::optional<HandHold> hold = hand().hold;
-    return hold ? hold->effort : Tick::NONE;
+    const std::optional<device::HandHold> hold = hand().hold;
+    return hold ? hold->effort : device::Tick::NONE;
   }
   // A number of each vessel.
-  Numbers of_vessels(const std::array<double, LIVE_VESSELS>& values) const {
+  Numbers of_vessels(const std::array<double, device::LIVE_VESSELS>& values) const {
     return Numbers(static_cast<py::ssize_t>(session->live().scene.vessels.size()), values.data());
   }
   py::object vessel() const {
@@ -73,7 +73,7 @@ struct Step {
 std::array<double, 2> gap_range(const Scene& scene, const std::optional<std::array<double, 2>>& given) {
   if (given) return *given;
   if (scene.device.has_gap) return scene.device.gap;
-  const LiveScene live(scene);
+  const device::LiveScene live(scene);
   return {live.hand.scale * live.hand.gap_closed, live.hand.scale * live.hand.gap_open};
 }
 
@@ -82,7 +82,7 @@ class SessionHandle {
   SessionHandle(SceneHandle& scene, const std::optional<std::array<double, 2>>& gap) {
     for (const double one : gap.value_or(std::array<double, 2>{}))
       if (!std::isfinite(one)) throw usage_error("session: a gap of the gripper is not finite");
-    session_ = std::make_shared<Session>(scene.whole(), gap_range(scene.whole(), gap));
+    session_ = std::make_shared<device::Session>(scene.whole(), gap_range(scene.whole(), gap));
     step_.session = session_;
   }
 
@@ -90,9 +90,10 @@ class SessionHandle {
   const Step& step(const py::object& position, const py::object& rotation, double gap, std::uint32_t buttons,
                    std::optional<std::int64_t> tick) {
     enter();
-    const GripperState state = state_of(position, rotation, gap, buttons);
-    const std::int64_t number = tick.value_or(last_ + 1);  // fits: last_ is LAST_TICK at most
-    if (number > LAST_TICK) throw usage_error(fmt::format("session: tick {}; allowed: up to {}", number, LAST_TICK));
+    const device::GripperState state = state_of(position, rotation, gap, buttons);
+    const std::int64_t number = tick.value_or(last_ + 1);  // fits: last_ is device::LAST_TICK at most
+    if (number > device::LAST_TICK)
+      throw usage_error(fmt::format("session: tick {}; allowed: up to {}", number, device::LAST_TICK));
     if (number <= last_) throw usage_error(fmt::format("session: tick {} after {}; allowed: a greater one", number, last_));
     last_ = number;
     session_->step(state, number, step_.tick);
@@ -121,11 +122,11 @@ class SessionHandle {
     if (owner_ != here) throw usage_error("session: it belongs to the thread of its first step, and this is another one");
   }
 
-  static GripperState state_of(const py::object& given_position, const py::object& given_rotation, double gap,
-                               std::uint32_t buttons) {
+  static device::GripperState state_of(const py::object& given_position, const py::object& given_rotation, double gap,
+                                       std::uint32_t buttons) {
     const Numbers position = finite_doubles(given_position, "position");
     if (position.ndim() != 1 || position.shape(0) != 3) throw usage_error("session: the position has another shape than (3,)");
-    GripperState state;
+    device::GripperState state;
     std::copy_n(position.data(), 3, state.position.begin());
     if (!given_rotation.is_none()) {
       const Numbers rotation = finite_doubles(given_rotation, "rotation");
@@ -135,30 +136,32 @@ class SessionHandle {
     }
     state.gap = gap;
     state.buttons = buttons;
-    if (!is_finite(state)) throw usage_error("session: the measurement has a number that is not finite");
-    if (!is_in_reach(state))
+    if (!device::is_finite(state)) throw usage_error("session: the measurement has a number that is not finite");
+    if (!device::is_in_reach(state))
       throw usage_error(fmt::format("session: the measurement is out of reach; allowed: a position up to {} m, a gap up to {} m",
-                                    FURTHEST_POSITION, WIDEST_GAP));
-    if (!is_rotation(state.rotation, ROTATION_TOLERANCE))
+                                    device::FURTHEST_POSITION, device::WIDEST_GAP));
+    if (!is_rotation(state.rotation, device::ROTATION_TOLERANCE))
       throw usage_error("session: the rotation is not a rotation; allowed: unit columns at right angles, right-handed");
     return state;
   }
 
-  std::shared_ptr<Session> session_;
+  std::shared_ptr<device::Session> session_;
   Step step_;
   std::int64_t last_ = -1;
   std::thread::id owner_;
 };
 
 std::string step_text(const Step& step) {
-  const std::string state = SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)];
+  const std::string state = device::SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)];
   const int vessel = step.tick.vessel;
   const std::string of = vessel < 0 ? "" : " " + step.session->live().scene.vessels[static_cast<std::size_t>(vessel)].name;
   return fmt::format("<Step {}: {}{}, grip force {:.3g} N>", step.tick.number, state, of, step.tick.wanted.grip);
 }
 
-constexpr auto number = [](auto Tick::*member) { return [member](const Step& step) { return step.tick.*member; }; };
-constexpr auto triple = [](auto Tick::*member) { return [member](const Step& step) { return array_of(step.tick.*member); }; };
+constexpr auto number = [](auto device::Tick::*member) { return [member](const Step& step) { return step.tick.*member; }; };
+constexpr auto triple = [](auto device::Tick::*member) {
+  return [member](const Step& step) { return array_of(step.tick.*member); };
+};
 
 // Forces, and how the hand holds.
 void bind_hold(py::class_<Step>& type) {
@@ -167,22 +170,22 @@ void bind_hold(py::class_<Step>& type) {
           "What the arm is to render, N, device frame, shape (3,). The caller limits it to what the gripper can do.")
       .def_property_readonly(
           "grip_force", [](const Step& step) { return step.tick.wanted.grip; }, "On each finger, N; positive opens.")
-      .def_property_readonly("normal_force", number(&Tick::normal_force), "Normal force, N.")
-      .def_property_readonly("feedback_force", number(&Tick::feedback), "The same within [0, F_max], N.")
-      .def_property_readonly("user_force", number(&Tick::user_force),
+      .def_property_readonly("normal_force", number(&device::Tick::normal_force), "Normal force, N.")
+      .def_property_readonly("feedback_force", number(&device::Tick::feedback), "The same within [0, F_max], N.")
+      .def_property_readonly("user_force", number(&device::Tick::user_force),
                              "The user's grip force, N: the feedback less what the torque added since the grasp.")
-      .def_property_readonly("hold_force", number(&Tick::hold_force),
+      .def_property_readonly("hold_force", number(&device::Tick::hold_force),
                              "With what each of two tips must press to hold the vessel, N; NaN: nothing is held.")
       .def_property_readonly(
           "effort", &Step::effort,
           "Least share of the hand's strength that holds the vessel, with all contacts; inf: no force holds it;\n"
           "NaN: nothing is held, or [strength] says efforts = false.")
-      .def_property_readonly("weight", number(&Tick::weight), "Weight of vessel and liquid, as far as it is lifted, N.")
-      .def_property_readonly("torque", number(&Tick::torque), "Torque of the held vessel, N m.")
-      .def_property_readonly("tilt", number(&Tick::tilt), "Between the vessel's axis and up, rad.")
-      .def_property_readonly("closure", number(&Tick::closure), "Closure of the hand: 0 open, 1 closed.")
-      .def_property_readonly("gap", number(&Tick::gap), "Gap of the hand, m.")
-      .def_property_readonly("grasp_height", number(&Tick::grasp_height),
+      .def_property_readonly("weight", number(&device::Tick::weight), "Weight of vessel and liquid, as far as it is lifted, N.")
+      .def_property_readonly("torque", number(&device::Tick::torque), "Torque of the held vessel, N m.")
+      .def_property_readonly("tilt", number(&device::Tick::tilt), "Between the vessel's axis and up, rad.")
+      .def_property_readonly("closure", number(&device::Tick::closure), "Closure of the hand: 0 open, 1 closed.")
+      .def_property_readonly("gap", number(&device::Tick::gap), "Gap of the hand, m.")
+      .def_property_readonly("grasp_height", number(&device::Tick::grasp_height),
                              "Height of the middle of the tips at the grasp, m, vessel's frame; NaN: nothing is held.");
 }
 
@@ -192,16 +195,16 @@ void bind_step(py::module_& module) {
       "One period of a live session: forces, states and the hand. Made by ``Session.step``.\n\n"
       "It stays as it is when the session goes on. SI units. Forces of arm_force are in the device frame, places in the\n"
       "world frame (+y up).");
-  type.def_property_readonly("tick", number(&Tick::number), "Number of the period.")
+  type.def_property_readonly("tick", number(&device::Tick::number), "Number of the period.")
       .def_property_readonly(
-          "state", [](const Step& step) { return SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)]; },
+          "state", [](const Step& step) { return device::SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)]; },
           "\"free\", \"touching\", \"lift\", \"tilt\", \"maintain\", \"slipped\", \"let go\" or \"released\".")
       .def_property_readonly(
-          "is_held", [](const Step& step) { return is_held(step.tick.state); }, "Whether a vessel is held.")
+          "is_held", [](const Step& step) { return device::is_held(step.tick.state); }, "Whether a vessel is held.")
       .def_property_readonly("vessel", &Step::vessel,
                              "Name of the vessel that is touched, held or on its way back; None: there is none.");
   bind_hold(type);
-  type.def_property_readonly("flow", number(&Tick::flow), "Over the held vessel's lip, m3/s.")
+  type.def_property_readonly("flow", number(&device::Tick::flow), "Over the held vessel's lip, m3/s.")
       .def_property_readonly(
           "volume", [](const Step& step) { return step.of_vessels(step.tick.volume); },
           "Liquid in each vessel, m3, in the order of scene.vessels.")
@@ -212,25 +215,26 @@ void bind_step(py::module_& module) {
           "spilled", [](const Step& step) { return step.of_vessels(step.tick.spilled); },
           "Liquid of each vessel that was spilled, m3, in the order of scene.vessels.")
       .def_property_readonly(
-          "target_volume", [](const Step& step) { return target_volume(step.session->live().scene, step.tick); },
+          "target_volume", [](const Step& step) { return device::target_volume(step.session->live().scene, step.tick); },
           "Liquid in the target of the task, of all vessels together, m3; 0 without a task.")
-      .def_property_readonly("middle", triple(&Tick::middle), "Middle of the two tips, m, world frame, shape (3,).")
+      .def_property_readonly("middle", triple(&device::Tick::middle), "Middle of the two tips, m, world frame, shape (3,).")
       .def_property_readonly(
           "hand_rotation", [](const Step& step) { return matrix_of(step.tick.hand_rotation); },
           "Rotation of the gripper's axes, world frame, shape (3, 3).")
-      .def_property_readonly("vessel_place", triple(&Tick::vessel_place),
+      .def_property_readonly("vessel_place", triple(&device::Tick::vessel_place),
                              "Place of the vessel's origin, m, world frame, shape (3,).")
       .def_property_readonly(
           "vessel_rotation", [](const Step& step) { return matrix_of(step.tick.vessel_rotation); },
           "From the vessel's frame to the world's, shape (3, 3).")
       .def_property_readonly(
           "tips", [](const Step& step) { return points_of(step.tick.tips); }, "Thumb and index tip, m, world frame, shape (2, 3).")
-      .def_property_readonly("touch_mask", number(&Tick::touch_mask), "Bit j: joint j touches.")
-      .def_property_readonly("used_mask", number(&Tick::used_mask), "Bit f: finger f has a touching joint.")
-      .def_property_readonly("grasps", number(&Tick::grasps), "Grasps since the start.")
-      .def_property_readonly("lost", number(&Tick::lost), "Vessels lost since the start.")
-      .def_property_readonly("destinations", number(&Tick::destinations), "Vessels brought to their destination since the start.")
-      .def_property_readonly("is_task_done", number(&Tick::task_done), "Whether the scene's task is done.")
+      .def_property_readonly("touch_mask", number(&device::Tick::touch_mask), "Bit j: joint j touches.")
+      .def_property_readonly("used_mask", number(&device::Tick::used_mask), "Bit f: finger f has a touching joint.")
+      .def_property_readonly("grasps", number(&device::Tick::grasps), "Grasps since the start.")
+      .def_property_readonly("lost", number(&device::Tick::lost), "Vessels lost since the start.")
+      .def_property_readonly("destinations", number(&device::Tick::destinations),
+                             "Vessels brought to their destination since the start.")
+      .def_property_readonly("is_task_done", number(&device::Tick::task_done), "Whether the scene's task is done.")
       .def_property_readonly(
           "joints", [](const Step& step) { return points_of(step.hand().proxies); },
           "The whole hand as it is drawn, m, world frame, shape (24, 3).")
@@ -238,31 +242,32 @@ void bind_step(py::module_& module) {
       .def("__repr__", &step_text);
 }
 
-std::vector<bool> touching(const HandView& hand) {
+std::vector<bool> touching(const device::HandView& hand) {
   std::vector<bool> found;
-  for (const PointContact contact : hand.contact)
-    found.push_back(contact == PointContact::touching || contact == PointContact::projected ||
-                    contact == PointContact::tracked_touching);
+  for (const device::PointContact contact : hand.contact)
+    found.push_back(contact == device::PointContact::touching || contact == device::PointContact::projected ||
+                    contact == device::PointContact::tracked_touching);
   return found;
 }
 
 void bind_hand(py::module_& module) {
-  py::class_<HandView>(module, "Hand",
-                       "The whole hand of one step: 24 joints, m, world frame (+y up). Made by ``Step.hand`` and ``Session.hand``.")
+  py::class_<device::HandView>(
+      module, "Hand", "The whole hand of one step: 24 joints, m, world frame (+y up). Made by ``Step.hand`` and ``Session.hand``.")
       .def_property_readonly(
-          "joints", [](const HandView& hand) { return points_of(hand.proxies); },
+          "joints", [](const device::HandView& hand) { return points_of(hand.proxies); },
           "As it is drawn, outside of all vessels, m, world frame, shape (24, 3).")
       .def_property_readonly(
-          "posed", [](const HandView& hand) { return points_of(hand.posed); },
+          "posed", [](const device::HandView& hand) { return points_of(hand.posed); },
           "With its fingers on the glass, m, world frame, shape (24, 3).")
       .def_property_readonly(
-          "rigged", [](const HandView& hand) { return points_of(hand.rigged); },
+          "rigged", [](const device::HandView& hand) { return points_of(hand.rigged); },
           "On its trajectory where the gripper has it, glass or no glass, m, world frame, shape (24, 3).")
       .def_property_readonly(
-          "wrist", [](const HandView& hand) { return array_of(hand.wrist); },
+          "wrist", [](const device::HandView& hand) { return array_of(hand.wrist); },
           "Origin of the hand's frame, m, world frame, shape (3,).")
       .def_property_readonly(
-          "rotation", [](const HandView& hand) { return matrix_of(hand.rotation); }, "Rotation of the hand's frame, shape (3, 3).")
+          "rotation", [](const device::HandView& hand) { return matrix_of(hand.rotation); },
+          "Rotation of the hand's frame, shape (3, 3).")
       .def_property_readonly("touching", &touching, "Whether each of the 24 joints touches the glass.");
 }
 

@@ -26,12 +26,12 @@ struct SweepSpec {
   bool refine = true, resume = false;
 };
 
-SweepOptions options_of(const SweepSpec& spec, std::vector<std::string>& notes) {
-  SweepOptions options{.output = spec.output,
-                       .on = spec.on,
-                       .resume = spec.resume,
-                       .refine = spec.refine,
-                       .hooks = {.note = [&notes](const std::string& line) { notes.push_back(line); }}};
+sweeps::SweepOptions options_of(const SweepSpec& spec, std::vector<std::string>& notes) {
+  sweeps::SweepOptions options{.output = spec.output,
+                               .on = spec.on,
+                               .resume = spec.resume,
+                               .refine = spec.refine,
+                               .hooks = {.note = [&notes](const std::string& line) { notes.push_back(line); }}};
   if (spec.precision) options.precision = parse_precision(*spec.precision);
   if (spec.best) options.best = static_cast<int>(parse_integer(std::to_string(*spec.best), "--best", ranges::BEST));
   options.threads = checked_threads(spec.threads);
@@ -54,11 +54,11 @@ py::tuple sweep(const SceneHandle& handle, const std::string& output, const std:
     const py::gil_scoped_release other_threads;
     Scene scene = handle.described();
     if (spec.keep) {
-      named_variables(scene, *spec.keep, "keep");
+      sweeps::named_variables(scene, *spec.keep, "keep");
       scene.output.keep = spec.keep;
       scene.output.keep_place = "keep";
     }
-    code = run_sweep(scene, options_of(spec, notes));
+    code = sweeps::run_sweep(scene, options_of(spec, notes));
   }
   // a signal during the ending left the sweep complete, but still belongs to Python
   return py::make_tuple(code != ExitCode::interrupted, InterruptGuard::signal_number(), notes);

@@ -64,7 +64,7 @@ Rotation rotation_of(const Rotation& given) {
 
 }  // namespace
 
-ViewControl parse_view_control(std::string_view body) {
+device::ViewControl parse_view_control(std::string_view body) {
   if (body.size() > LARGEST_CONTROL) {
     throw usage_error(fmt::format("control: {} bytes; allowed: at most {}", body.size(), LARGEST_CONTROL));
   }
@@ -77,7 +77,7 @@ ViewControl parse_view_control(std::string_view body) {
     if (key == "position" || key == "rotation" || key == "gap" || key == "buttons" || key == "sequence") continue;
     throw usage_error(fmt::format("control: unknown key {}; {}", in_quotes(key), KEYS));
   }
-  ViewControl control;
+  device::ViewControl control;
   control.position = parse_numbers<3>(object["position"], "position", FURTHEST_CONTROL);
   control.rotation = rotation_of(parse_numbers<9>(object["rotation"], "rotation", 2));
   control.gap = parse_number(object["gap"], "gap", FURTHEST_CONTROL);

@@ -14,6 +14,6 @@ constexpr double CONTROL_SKEW = 0.01;          // how far columns may be from un
 
 // A control from the body of a request: exactly the keys position, rotation, gap, buttons and sequence, all numbers finite and in their ranges. The
 // rotation, which the page has in single precision, is made exact. Throws Error (usage): one line, what was found and what is allowed.
-ViewControl parse_view_control(std::string_view body);
+device::ViewControl parse_view_control(std::string_view body);
 
 }  // namespace wholehand

@@ -63,7 +63,7 @@ class Writer {
   std::string out_;
 };
 
-char letter(PointContact contact) {
+char letter(device::PointContact contact) {
   constexpr char LETTERS[] = {'.', 't', 'p', 'k', 'K'};
   return LETTERS[static_cast<std::size_t>(contact)];
 }
@@ -78,7 +78,7 @@ void write_vessel(Writer& out, const ViewFrame::Vessel& vessel) {
   out.number(",\"volume\":", vessel.volume);
   const Rotation& r = vessel.pose.rotation;
   out.numbers(",\"up\":", vessel.surface ? vessel.surface->up : Triple{r[3], r[4], r[5]});
-  out.number(",\"level\":", vessel.surface ? vessel.surface->level : Tick::NONE);
+  out.number(",\"level\":", vessel.surface ? vessel.surface->level : device::Tick::NONE);
   out.text("}");
 }
 
@@ -96,9 +96,9 @@ void write_forces(Writer& out, const ViewFrame& frame) {
   out.text("}");
 }
 
-void write_presses(Writer& out, const std::vector<HandPress>& presses) {
+void write_presses(Writer& out, const std::vector<device::HandPress>& presses) {
   bool is_first = true;
-  for (const HandPress& press : presses) {
+  for (const device::HandPress& press : presses) {
     out.text(is_first ? "{\"digit\":" : ",{\"digit\":");
     is_first = false;
     out.whole(press.digit);
@@ -110,7 +110,7 @@ void write_presses(Writer& out, const std::vector<HandPress>& presses) {
 }
 
 // What is infinite is null there.
-void write_holding(Writer& out, const HandHold& hold) {
+void write_holding(Writer& out, const device::HandHold& hold) {
   out.number(",\"holding\":{\"effort\":", hold.effort);
   out.number(",\"effort_low\":", hold.low);
   out.number(",\"tips_effort\":", hold.tips);
@@ -139,8 +139,9 @@ void write_advice(Writer& out, const FrameAdvice& advice) {
 
 }  // namespace
 
-FrameAdvice frame_advice(const Scene& scene, const Advice& advice, const VesselPoses& poses) {
-  FrameAdvice shown{advice.vessel, advice_words(advice), Tick::NONE, Tick::NONE, ghost_of(scene, advice, poses)};
+FrameAdvice frame_advice(const Scene& scene, const device::Advice& advice, const device::VesselPoses& poses) {
+  FrameAdvice shown{advice.vessel, device::advice_words(advice), device::Tick::NONE, device::Tick::NONE,
+                    ghost_of(scene, advice, poses)};
   if (advice.present.is_possible) shown.from = advice.present.effort;
   if (advice.best && advice.best->is_possible) shown.to = advice.best->effort;
   return shown;
@@ -167,7 +168,7 @@ std::string frame_json(const ViewFrame& frame) {
     out.text("null");
   }
   out.text(",\"contacts\":\"");
-  for (const PointContact contact : frame.hand.contact) out.text({std::array{letter(contact)}.data(), 1});
+  for (const device::PointContact contact : frame.hand.contact) out.text({std::array{letter(contact)}.data(), 1});
   out.number("\",\"closure\":", frame.closure);
   out.number(",\"gap\":", frame.gap);
   out.number(",\"tilt\":", frame.tilt);
@@ -206,14 +207,16 @@ std::string frame_json(const ViewFrame& frame) {
   return out.take();
 }
 
-FrameMaker::FrameMaker(const LiveScene& live) : live_(live), table_(table_height(live.scene)), rests_(live.vessels.size()) {}
+FrameMaker::FrameMaker(const device::LiveScene& live)
+    : live_(live), table_(device::table_height(live.scene)), rests_(live.vessels.size()) {}
 
-ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const HandView& hand, const DisplayTiming& timing) {
+ViewFrame FrameMaker::make(const device::Tick& tick, const device::VesselPoses& poses, const device::HandView& hand,
+                           const device::DisplayTiming& timing) {
   const Scene& scene = live_.scene;
   ViewFrame frame;
   frame.time = static_cast<double>(tick.number) / scene.live.rate;
   frame.tick = tick.number;
-  frame.state = SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)];
+  frame.state = device::SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)];
   frame.vessel = tick.vessel;
   frame.hand = hand;
   frame.rotation = tick.hand_rotation;
@@ -224,37 +227,37 @@ ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const Han
     Rest& rest = rests_[v];
     if (rest.volume != tick.volume[v] || rest.rotation != poses[v].rotation)
       rest = {tick.volume[v], poses[v].rotation,
-              liquid_surface(live_.vessels[v].vessel, live_.quadrature, tick.volume[v], poses[v].rotation)};
+              device::liquid_surface(live_.vessels[v].vessel, live_.quadrature, tick.volume[v], poses[v].rotation)};
     frame.vessels.push_back({true, poses[v], tick.volume[v], rest.surface});
   }
-  frame.stream = pouring_stream(live_, tick, table_);
+  frame.stream = device::pouring_stream(live_, tick, table_);
   frame.feedback = tick.feedback;
   frame.written = tick.written.grip;
-  frame.base = is_held(tick.state) ? scene.force.base : 0;
+  frame.base = device::is_held(tick.state) ? scene.force.base : 0;
   frame.normal = tick.normal_force;
   frame.opening = tick.opening_force;
   frame.user = tick.user_force;
   frame.hold = hand.hold ? hand.hold->force() : tick.hold_force;
   frame.weight = tick.weight;
   frame.torque = tick.torque;
-  for (const MixedAmount& amount : mixing_board(scene, tick)) frame.arrived.push_back(amount.arrived);
-  frame.spilled = total_spilled(scene, tick);
-  frame.target_volume = target_volume(scene, tick);
+  for (const device::MixedAmount& amount : device::mixing_board(scene, tick)) frame.arrived.push_back(amount.arrived);
+  frame.spilled = device::total_spilled(scene, tick);
+  frame.target_volume = device::target_volume(scene, tick);
   frame.guidance = tick.guidance;
   frame.is_done = tick.task_done;
   frame.timing = timing;
   return frame;
 }
 
-std::optional<GhostHand> ghost_of(const Scene& scene, const Advice& advice, const VesselPoses& poses) {
+std::optional<GhostHand> ghost_of(const Scene& scene, const device::Advice& advice, const device::VesselPoses& poses) {
   if (advice.vessel < 0 || !advice.best || !advice.is_better) return std::nullopt;
-  const VesselPose& pose = poses[static_cast<std::size_t>(advice.vessel)];
+  const device::VesselPose& pose = poses[static_cast<std::size_t>(advice.vessel)];
   const glm::dmat3 turn = to_mat3(pose.rotation);
-  const auto out = [&](const HandNode& node) {
+  const auto out = [&](const sweeps::HandNode& node) {
     return GhostNode{to_triple(to_vec3(pose.place) + turn * to_vec3(node.position)),
                      to_quaternion(to_quat(turn) * to_quat(node.rotation))};
   };
-  const HandNodes nodes = hand_nodes(scene.hand, advice.best->grip, advice.posed);
+  const sweeps::HandNodes nodes = sweeps::hand_nodes(scene.hand, advice.best->grip, advice.posed);
   GhostHand ghost{out(nodes.wrist), {}};
   for (std::size_t j = 0; j < ghost.joints.size(); ++j) ghost.joints[j] = out(nodes.joints[j]);
   return ghost;

@@ -85,9 +85,10 @@ class GripsView::Impl {
         continue;
       }
       seen.score = evaluator_->score(wanted.vessel, wanted.grip, seen.result);
-      seen.wrist = hand_nodes(scene_.hand, wanted.grip, seen.result).wrist.position;
+      seen.wrist = sweeps::hand_nodes(scene_.hand, wanted.grip, seen.result).wrist.position;
       if (scene_.strength) {
-        seen.holding = std::make_unique<Holding>(scene_, *evaluator_, wanted.vessel, seen.result, to_triple(pour_of(wanted.grip)));
+        seen.holding =
+            std::make_unique<sweeps::Holding>(scene_, *evaluator_, wanted.vessel, seen.result, to_triple(pour_of(wanted.grip)));
       }
       seen_.push_back(std::move(seen));
     }
@@ -102,7 +103,8 @@ class GripsView::Impl {
     const std::size_t v = seen.wanted.vessel;
     const Mat3 turn = turn_of(seen, tilt);
     ViewFrame frame;
-    frame.state = SESSION_STATE_NAMES[static_cast<std::size_t>(tilt > 0 ? SessionState::maintain : SessionState::lift)];
+    frame.state = device::SESSION_STATE_NAMES[static_cast<std::size_t>(tilt > 0 ? device::SessionState::maintain
+                                                                                : device::SessionState::lift)];
     frame.vessel = static_cast<int>(v);
     const Vec3 place = place_of(seen, turn);
     pose_hand(seen, turn, place, frame.hand);
@@ -117,7 +119,7 @@ class GripsView::Impl {
     frame.vessels[v] = {true,
                         {to_triple(place), rotation},
                         liquid.volume,
-                        liquid_surface(vessels_[v].vessel, quadrature_, liquid.volume, rotation)};
+                        device::liquid_surface(vessels_[v].vessel, quadrature_, liquid.volume, rotation)};
     put_forces(seen, fill, tilt, liquid, frame);
     return frame;
   }
@@ -128,7 +130,7 @@ class GripsView::Impl {
     return json_text(list);
   }
 
-  std::string scene_json(const std::string& title, const StateAxes& asked) const {
+  std::string scene_json(const std::string& title, const sweeps::StateAxes& asked) const {
     ViewFacts facts;
     facts.mode = ViewMode::grips;
     facts.title = title;
@@ -154,12 +156,12 @@ class GripsView::Impl {
     GripResult result;
     GripScore score;
     Triple wrist{};
-    std::unique_ptr<const Holding> holding;  // in a scene with strengths
+    std::unique_ptr<const sweeps::Holding> holding;  // in a scene with strengths
   };
 
   // Any direction where the line is vertical.
   Vec3 pour_of(const GripInput& grip) const {
-    const Vec3 to = to_vec3(pour_direction(scene_, grip));
+    const Vec3 to = to_vec3(sweeps::pour_direction(scene_, grip));
     return glm::length(to) < 0.5 ? Vec3(1, 0, 0) : to;
   }
 
@@ -182,7 +184,7 @@ class GripsView::Impl {
     return place;
   }
 
-  static void pose_hand(const Seen& seen, const Mat3& turn, Vec3 place, HandView& hand) {
+  static void pose_hand(const Seen& seen, const Mat3& turn, Vec3 place, device::HandView& hand) {
     const GripResult& result = seen.result;
     const std::uint32_t projected = result.tip_mask | result.finger_mask | result.inner_mask;
     const auto out = [&](const Triple& point) { return to_triple(place + turn * to_vec3(point)); };
@@ -192,10 +194,10 @@ class GripsView::Impl {
       hand.proxies[j] = out(result.proxies[j]);
       const bool touches = (result.touch_mask >> j & 1) != 0, is_projected = (projected >> j & 1) != 0;
       const bool is_tracked = j == THUMB_TIP || j == INDEX_TIP;
-      hand.contact[j] = is_tracked     ? (touches ? PointContact::tracked_touching : PointContact::tracked)
-                        : !touches     ? PointContact::free
-                        : is_projected ? PointContact::projected
-                                       : PointContact::touching;
+      hand.contact[j] = is_tracked     ? (touches ? device::PointContact::tracked_touching : device::PointContact::tracked)
+                        : !touches     ? device::PointContact::free
+                        : is_projected ? device::PointContact::projected
+                                       : device::PointContact::touching;
     }
     hand.wrist = hand.rigged_wrist = out(seen.wrist);
     hand.vessel = static_cast<int>(seen.wanted.vessel);
@@ -220,11 +222,11 @@ class GripsView::Impl {
   }
 
   // In the world, where the vessel is.
-  HandHold hold_of(const StateHold& state, const VesselPose& pose) const {
+  device::HandHold hold_of(const sweeps::StateHold& state, const device::VesselPose& pose) const {
     const Mat3 turn = to_mat3(pose.rotation);
     const auto turned = [&](const Triple& v) { return to_triple(turn * to_vec3(v)); };
-    HandHold hold{state.effort, state.low, state.tips, state.strength.weaker_tip(), {}};
-    for (const HeldContact& contact : state.contacts) {
+    device::HandHold hold{state.effort, state.low, state.tips, state.strength.weaker_tip(), {}};
+    for (const sweeps::HeldContact& contact : state.contacts) {
       if (contact.force == Triple{}) continue;
       const Triple place = to_triple(to_vec3(pose.place) + turn * to_vec3(contact.point));
       hold.presses.push_back({contact.digit, place, turned(contact.normal), turned(contact.force)});
@@ -256,13 +258,15 @@ class GripsView::Impl {
     json["points"] = std::popcount(result.touch_mask);
     json["depth_m"] = std::max(result.phalanx_depth, result.palm_depth);
     json["antipodal"] = result.antipodal;
-    double peak = Tick::NONE, hold = Tick::NONE, safe = Tick::NONE;
+    double peak = device::Tick::NONE, hold = device::Tick::NONE, safe = device::Tick::NONE;
     bool is_safe_to_end = !seen.score.fills.empty();
     for (std::size_t f = 0; f < seen.score.fills.size(); ++f) {
       const FillTerms& fill = seen.score.fills[f];
       peak = std::isnan(peak) ? fill.peak_force : std::max(peak, fill.peak_force);
       hold = std::isnan(hold) ? fill.largest_hold : std::max(hold, fill.largest_hold);
-      safe = f == 0 ? fill.safe_tilt : std::isnan(safe) || std::isnan(fill.safe_tilt) ? Tick::NONE : std::min(safe, fill.safe_tilt);
+      safe = f == 0                                           ? fill.safe_tilt
+             : std::isnan(safe) || std::isnan(fill.safe_tilt) ? device::Tick::NONE
+                                                              : std::min(safe, fill.safe_tilt);
       is_safe_to_end = is_safe_to_end && fill.safe_tilt >= last_tilts_[seen.wanted.vessel][f];
     }
     json["peak_force_N"] = finite_or_null(peak);
@@ -288,7 +292,7 @@ std::size_t GripsView::size() const { return impl_->size(); }
 const GripResult& GripsView::result(std::size_t grip) const { return impl_->result(grip); }
 ViewFrame GripsView::frame(std::size_t grip, double fill, double tilt) const { return impl_->frame(grip, fill, tilt); }
 
-ViewContent GripsView::content(const std::string& title, const StateAxes& asked) const {
+ViewContent GripsView::content(const std::string& title, const sweeps::StateAxes& asked) const {
   ViewContent content;
   content.scene = impl_->scene_json(title, asked);
   for (const VesselData& vessel : impl_->scene().vessels) content.meshes.push_back(mesh_bytes(vessel));

@@ -53,7 +53,7 @@ class GripsView {
   ViewFrame frame(std::size_t grip, double fill, double tilt) const;
   // scene.json and state of it, for a server, which must not outlive this. `asked`: the page's initial and largest fills and tilts; by default the
   // scene's own. Forces and scores are always the scene's.
-  ViewContent content(const std::string& title, const StateAxes& asked) const;
+  ViewContent content(const std::string& title, const sweeps::StateAxes& asked) const;
 
  private:
   class Impl;

@@ -5,7 +5,7 @@
 
 namespace wholehand {
 
-LiveView::LiveView(const LiveScene& live, const ViewFacts& facts, std::function<void(const std::string&)> control, int port)
+LiveView::LiveView(const device::LiveScene& live, const ViewFacts& facts, std::function<void(const std::string&)> control, int port)
     : live_(live), maker_(live), frames_(MOST_VIEWERS) {
   ViewContent content;
   content.scene = view_scene_json(live.scene, facts);
@@ -15,7 +15,7 @@ LiveView::LiveView(const LiveScene& live, const ViewFacts& facts, std::function<
   server_ = std::make_unique<ViewServer>(std::move(content), port);
 }
 
-void LiveView::show(const DisplayMoment& moment) noexcept {
+void LiveView::show(const device::DisplayMoment& moment) noexcept {
   try {
     ViewFrame frame = maker_.make(moment.tick, moment.poses, moment.hand, moment.timing);
     if (moment.advice && moment.advice->vessel >= 0) frame.advice = frame_advice(live_.scene, *moment.advice, moment.poses);

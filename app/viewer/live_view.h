@@ -12,19 +12,19 @@
 
 namespace wholehand {
 
-class LiveView final : public Display {
+class LiveView final : public device::Display {
  public:
   // `live` must outlive it. `control` takes the page's posts if the page is the gripper; else empty. Throws Error as ViewServer does.
-  LiveView(const LiveScene& live, const ViewFacts& facts, std::function<void(const std::string&)> control, int port);
+  LiveView(const device::LiveScene& live, const ViewFacts& facts, std::function<void(const std::string&)> control, int port);
 
   const std::string& address() const { return server_->address(); }
   bool is_watched() override { return frames_.viewers() > 0; }
-  void show(const DisplayMoment& moment) noexcept override;
+  void show(const device::DisplayMoment& moment) noexcept override;
   // Tells viewers why there are no more frames, and ends the server.
   void end(const std::string& reason) override;
 
  private:
-  const LiveScene& live_;
+  const device::LiveScene& live_;
   FrameMaker maker_;
   FrameHub frames_;
   std::unique_ptr<ViewServer> server_;  // declared last: it uses the frames

@@ -35,7 +35,7 @@ HostPort parse_osc_url(const std::string& url) {
   return target;
 }
 
-OscStream::OscStream(const HostPort& target, const LiveScene& live)
+OscStream::OscStream(const HostPort& target, const device::LiveScene& live)
     : live_(live), to_(find_udp_address(target, PLACE)), socket_(to_.family(), PLACE) {
   for (int j = 0; j < JOINT_COUNT; ++j) joints_[j] = std::string("/wholehand/joint/") + JOINT_NAMES[j].openxr;
   for (int j = 0; j < JOINT_COUNT; ++j) ghost_joints_[j] = std::string("/wholehand/advice/joint/") + JOINT_NAMES[j].openxr;
@@ -51,11 +51,11 @@ OscStream::OscStream(const HostPort& target, const LiveScene& live)
   socket_.allow_broadcast();
 }
 
-void OscStream::show(const DisplayMoment& moment) noexcept {
+void OscStream::show(const device::DisplayMoment& moment) noexcept {
   const auto state = static_cast<std::size_t>(moment.tick.state);
   tick_ = static_cast<std::int32_t>(moment.tick.number & INT32_MAX);
   time_ = number(static_cast<double>(moment.tick.number) / live_.scene.live.rate);
-  put("/wholehand/state", {static_cast<std::int32_t>(state), std::string_view(SESSION_STATE_NAMES[state])});
+  put("/wholehand/state", {static_cast<std::int32_t>(state), std::string_view(device::SESSION_STATE_NAMES[state])});
   put_hand(moment);
   put_vessels(moment.tick, moment.poses);
   put_forces(moment);
@@ -88,9 +88,9 @@ void OscStream::flush() noexcept {
   bundle_.clear();
 }
 
-void OscStream::put_hand(const DisplayMoment& moment) noexcept {
-  const Tick& tick = moment.tick;
-  const HandView& hand = moment.hand;
+void OscStream::put_hand(const device::DisplayMoment& moment) noexcept {
+  const device::Tick& tick = moment.tick;
+  const device::HandView& hand = moment.hand;
   const HandData& data = live_.scene.hand;
   std::string_view vessel;
   if (tick.vessel >= 0) vessel = live_.scene.vessels[static_cast<std::size_t>(tick.vessel)].name;
@@ -100,7 +100,7 @@ void OscStream::put_hand(const DisplayMoment& moment) noexcept {
   put("/wholehand/hand/vessel", {static_cast<std::int32_t>(tick.vessel), vessel});
   put("/wholehand/hand/tilt", {number(tick.tilt)});
   put("/wholehand/hand/flow", {number(tick.flow)});
-  const HandNodes nodes = hand_nodes(data, live_.hand, hand.wrist, hand.rotation, hand.proxies);
+  const sweeps::HandNodes nodes = sweeps::hand_nodes(data, live_.hand, hand.wrist, hand.rotation, hand.proxies);
   put_pose("/wholehand/joint/XR_HAND_JOINT_WRIST_EXT", nodes.wrist.position, nodes.wrist.rotation, turns_[JOINT_COUNT]);
   for (int j = 0; j < JOINT_COUNT; ++j) put_pose(joints_[j], nodes.joints[j].position, nodes.joints[j].rotation, turns_[j]);
   std::array<OscValue, JOINT_COUNT> contacts;
@@ -108,17 +108,17 @@ void OscStream::put_hand(const DisplayMoment& moment) noexcept {
   put("/wholehand/hand/contacts", contacts);
 }
 
-void OscStream::put_vessels(const Tick& tick, const VesselPoses& poses) noexcept {
+void OscStream::put_vessels(const device::Tick& tick, const device::VesselPoses& poses) noexcept {
   for (std::size_t v = 0; v < vessels_.size(); ++v) {
     put_pose(vessels_[v].pose, poses[v].place, quaternion_of(poses[v].rotation), vessels_[v].turn);
     put(vessels_[v].liquid, {number(tick.volume[v])});
   }
 }
 
-void OscStream::put_forces(const DisplayMoment& moment) noexcept {
-  const Tick& tick = moment.tick;
-  const std::optional<HandHold>& hold = moment.hand.hold;
-  const float base = is_held(tick.state) ? number(live_.scene.force.base) : 0;
+void OscStream::put_forces(const device::DisplayMoment& moment) noexcept {
+  const device::Tick& tick = moment.tick;
+  const std::optional<device::HandHold>& hold = moment.hand.hold;
+  const float base = device::is_held(tick.state) ? number(live_.scene.force.base) : 0;
   put("/wholehand/force/feedback", {number(tick.feedback)});
   put("/wholehand/force/base", {base});
   put("/wholehand/force/normal", {number(tick.normal_force)});
@@ -130,24 +130,26 @@ void OscStream::put_forces(const DisplayMoment& moment) noexcept {
   if (live_.scene.strength) put_holding(hold);
 }
 
-void OscStream::put_holding(const std::optional<HandHold>& hold) noexcept {
+void OscStream::put_holding(const std::optional<device::HandHold>& hold) noexcept {
   put("/wholehand/force/tips_hold", {hold ? holding_number(hold->tips_force()) : 0});
   put("/wholehand/hand/effort", {hold ? holding_number(hold->effort) : 0});
   put("/wholehand/hand/tips_effort", {hold ? holding_number(hold->tips) : 0});
 }
 
-void OscStream::put_advice(const Advice& advice, const VesselPoses& poses) noexcept try {
+void OscStream::put_advice(const device::Advice& advice, const device::VesselPoses& poses) noexcept try {
   const bool is_near = advice.vessel >= 0;
   std::string_view vessel;
   if (is_near) vessel = live_.scene.vessels[static_cast<std::size_t>(advice.vessel)].name;
-  const std::string words = advice_words(advice);
+  const std::string words = device::advice_words(advice);
   put("/wholehand/advice/vessel", {static_cast<std::int32_t>(advice.vessel), vessel});
   put("/wholehand/advice/words", {std::string_view(words)});
   put("/wholehand/advice/better", {is_near && advice.best && advice.is_better ? 1 : 0});
   if (!is_near) return;
-  const auto effort = [](const RatedGrip* grip) { return grip && grip->is_possible ? holding_number(grip->effort) : UNHOLDABLE; };
+  const auto effort = [](const device::RatedGrip* grip) {
+    return grip && grip->is_possible ? holding_number(grip->effort) : UNHOLDABLE;
+  };
   put("/wholehand/advice/effort", {effort(&advice.present), effort(advice.best ? &*advice.best : nullptr)});
-  if (const TiltAhead* hardest = advice.ahead ? advice.ahead->hardest() : nullptr)
+  if (const device::TiltAhead* hardest = advice.ahead ? advice.ahead->hardest() : nullptr)
     put("/wholehand/advice/ahead",
         {number(hardest->tilt), holding_number(hardest->effort), holding_number(advice.ahead->other_worst())});
   if (!advice.best) return;
@@ -163,13 +165,13 @@ void OscStream::put_ghost(const GhostHand& ghost) noexcept {
   for (int j = 0; j < JOINT_COUNT; ++j) put_pose(ghost_joints_[j], ghost.joints[j].place, ghost.joints[j].turn, ghost_turns_[j]);
 }
 
-void OscStream::put_task(const Tick& tick) noexcept {
+void OscStream::put_task(const device::Tick& tick) noexcept {
   const Scene& scene = live_.scene;
   for (std::size_t k = 0; k < amounts_.size(); ++k) {
     const auto& [liquid, wanted] = scene.task->amounts[k];
-    put(amounts_[k], {number(total_arrived(scene, tick, liquid)), number(wanted)});
+    put(amounts_[k], {number(device::total_arrived(scene, tick, liquid)), number(wanted)});
   }
-  put("/wholehand/task/spilled", {number(total_spilled(scene, tick))});
+  put("/wholehand/task/spilled", {number(device::total_spilled(scene, tick))});
   put("/wholehand/task/guidance", {static_cast<std::int32_t>(tick.guidance)});
   put("/wholehand/task/done", {tick.task_done ? 1 : 0});
 }

@@ -20,10 +20,10 @@ namespace wholehand {
 HostPort parse_osc_url(const std::string& url);
 
 // Sends frames without checking whether anybody receives them.
-class OscStream final : public Display {
+class OscStream final : public device::Display {
  public:
   // `live` must outlive it. Throws Error (failure): the host is not known, or there is no socket.
-  OscStream(const HostPort& target, const LiveScene& live);
+  OscStream(const HostPort& target, const device::LiveScene& live);
   OscStream(const OscStream&) = delete;
   OscStream& operator=(const OscStream&) = delete;
 
@@ -32,7 +32,7 @@ class OscStream final : public Display {
 
   // Sends a frame, in as many datagrams of DATAGRAM bytes as needed. A datagram that the system does not take at once, or that nobody receives, is
   // lost. Never waits.
-  void show(const DisplayMoment& moment) noexcept override;
+  void show(const device::DisplayMoment& moment) noexcept override;
 
   // Bytes: fits any network between two machines unfragmented, and any receiver's buffer.
   static constexpr std::size_t DATAGRAM = 1400;
@@ -48,15 +48,15 @@ class OscStream final : public Display {
   }
   void put_pose(std::string_view address, const Triple& place, const Quaternion& turn, Quaternion& before) noexcept;
   void flush() noexcept;
-  void put_hand(const DisplayMoment& moment) noexcept;
-  void put_vessels(const Tick& tick, const VesselPoses& poses) noexcept;
-  void put_forces(const DisplayMoment& moment) noexcept;
-  void put_holding(const std::optional<HandHold>& hold) noexcept;
-  void put_task(const Tick& tick) noexcept;
-  void put_advice(const Advice& advice, const VesselPoses& poses) noexcept;
+  void put_hand(const device::DisplayMoment& moment) noexcept;
+  void put_vessels(const device::Tick& tick, const device::VesselPoses& poses) noexcept;
+  void put_forces(const device::DisplayMoment& moment) noexcept;
+  void put_holding(const std::optional<device::HandHold>& hold) noexcept;
+  void put_task(const device::Tick& tick) noexcept;
+  void put_advice(const device::Advice& advice, const device::VesselPoses& poses) noexcept;
   void put_ghost(const GhostHand& ghost) noexcept;
 
-  const LiveScene& live_;
+  const device::LiveScene& live_;
   std::string note_;
   UdpAddress to_;
   UdpSocket socket_;

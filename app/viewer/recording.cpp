@@ -13,7 +13,7 @@
 namespace wholehand {
 namespace {
 
-Recording checked(Recording recording) {
+device::Recording checked(device::Recording recording) {
   if (recording.ticks.empty()) throw usage_error("view: the recording has no ticks");
   return recording;
 }
@@ -28,7 +28,7 @@ double count_of(double from, double to, double rate) { return to > from ? std::f
 
 }  // namespace
 
-RecordingView::RecordingView(const Scene& scene, Recording recording)
+RecordingView::RecordingView(const Scene& scene, device::Recording recording)
     : recording_(checked(std::move(recording))),
       live_(at_rate(scene, recording_.info.rate)),
       history_(live_.scene, recording_.ticks) {
@@ -39,19 +39,19 @@ RecordingView::RecordingView(const Scene& scene, Recording recording)
 double RecordingView::duration() const { return static_cast<double>(recording_.ticks.back().number + 1) / recording_.info.rate; }
 
 std::size_t RecordingView::tick_by(double time) const {
-  const std::vector<Tick>& ticks = recording_.ticks;
+  const std::vector<device::Tick>& ticks = recording_.ticks;
   const double number = time * recording_.info.rate + 1e-6;  // what was asked for as k / rate is tick k
   const auto after = std::upper_bound(ticks.begin(), ticks.end(), number,
-                                      [](double n, const Tick& tick) { return n < static_cast<double>(tick.number); });
+                                      [](double n, const device::Tick& tick) { return n < static_cast<double>(tick.number); });
   return after == ticks.begin() ? 0 : static_cast<std::size_t>(after - ticks.begin()) - 1;
 }
 
-DisplayTiming RecordingView::timing_of(std::size_t tick) const {
-  const std::vector<Tick>& ticks = recording_.ticks;
+device::DisplayTiming RecordingView::timing_of(std::size_t tick) const {
+  const std::vector<device::Tick>& ticks = recording_.ticks;
   const double rate = recording_.info.rate;
-  DisplayTiming timing;
+  device::DisplayTiming timing;
   if (!recording_.info.has_clock) {
-    timing.rate = timing.step = Tick::NONE;
+    timing.rate = timing.step = device::Tick::NONE;
     return timing;
   }
   timing.step = ticks[tick].step_time;
@@ -70,9 +70,9 @@ std::vector<ViewFrame> RecordingView::frames(double from, double to, double rate
   const int count = static_cast<int>(count_of(from, to, rate));
   for (int k = 0; k < count; ++k) {
     const std::size_t at = tick_by(from + (k > 0 ? k / rate : 0));
-    const VesselPoses poses = history_.at(at);
-    const Tick& tick = recording_.ticks[at];
-    frames.push_back(maker.make(tick, poses, hand_view(live_, tick, poses), timing_of(at)));
+    const device::VesselPoses poses = history_.at(at);
+    const device::Tick& tick = recording_.ticks[at];
+    frames.push_back(maker.make(tick, poses, device::hand_view(live_, tick, poses), timing_of(at)));
   }
   return frames;
 }

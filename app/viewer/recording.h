@@ -18,7 +18,7 @@ constexpr int MOST_RECORDED_FRAMES = 600;  // in one answer
 class RecordingView {
  public:
   // The scene that was recorded, its meshes read. Throws Error (usage): no ticks, or a scene that cannot be live.
-  RecordingView(const Scene& scene, Recording recording);
+  RecordingView(const Scene& scene, device::Recording recording);
 
   double duration() const;  // s, to the end of the last tick
   // Frames at `from`, `from` + 1 / `rate`, .. up to `to`, s: each of the newest tick by then, or the first if there is none yet.
@@ -28,12 +28,12 @@ class RecordingView {
 
  private:
   std::size_t tick_by(double time) const;
-  DisplayTiming timing_of(std::size_t tick) const;
+  device::DisplayTiming timing_of(std::size_t tick) const;
   std::string answer(const ViewContent::Query& query) const;
 
-  Recording recording_;
-  LiveScene live_;
-  VesselHistory history_;
+  device::Recording recording_;
+  device::LiveScene live_;
+  device::VesselHistory history_;
 };
 
 }  // namespace wholehand

@@ -100,13 +100,14 @@ std::string view_scene_json(const Scene& scene, const ViewFacts& facts) {
   json["joints"] = joints_json(scene.hand);
   json["vessels"] = Json::array();
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) json["vessels"].push_back(vessel_json(scene, v));
-  json["table_y"] = table_height(scene);
+  json["table_y"] = device::table_height(scene);
   json["target"] = nullptr;
   json["destination"] = nullptr;
   json["amounts"] = Json::array();
   json["tolerance_m3"] = nullptr;
   if (scene.task) {
-    json["target"] = {{"place", scene.task->target_place}, {"diameter", scene.task->target_diameter}, {"wall", TARGET_WALL}};
+    json["target"] = {
+        {"place", scene.task->target_place}, {"diameter", scene.task->target_diameter}, {"wall", device::TARGET_WALL}};
     json["destination"] = scene.task->destination;
     for (const auto& [liquid, volume] : scene.task->amounts) json["amounts"].push_back({{"liquid", liquid}, {"target_m3", volume}});
     json["tolerance_m3"] = scene.task->tolerance;
@@ -114,7 +115,7 @@ std::string view_scene_json(const Scene& scene, const ViewFacts& facts) {
   json["force"] = {
       {"base", scene.force.base}, {"max", scene.force.max}, {"most", facts.most_force > 0 ? facts.most_force : scene.force.max}};
   if (scene.strength) json["strength"] = scene.strength->digits;
-  json["states"] = SESSION_STATE_NAMES;
+  json["states"] = device::SESSION_STATE_NAMES;
   if (facts.mode == ViewMode::recording) json["duration"] = facts.duration;
   if (facts.mode != ViewMode::grips) json["rate"] = facts.rate;
   if (!facts.grips.empty()) {

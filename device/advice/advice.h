@@ -8,7 +8,7 @@
 #include "core/result.h"
 #include "device/session/tilts_ahead.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // A grip of a vessel with its present liquid, over all tilts until it is poured. Rated by the core in double precision, whatever found it.
 struct RatedGrip {
@@ -33,4 +33,4 @@ struct Advice {
   std::uint64_t grips = 0;          // that were asked for
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

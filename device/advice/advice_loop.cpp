@@ -18,7 +18,7 @@
 #include "base/system/clock.h"
 #include "device/advice/moment.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Shared by the thread and its owner. The thread keeps it alive if a hanging device is abandoned.
 struct AdviceLoop::Shared {
@@ -223,4 +223,4 @@ AdviceTally AdviceLoop::tally() const {
   return shared_->tally;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

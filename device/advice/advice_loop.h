@@ -10,7 +10,7 @@
 #include "device/advice/live_advice.h"
 #include "device/advice/moment.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr double ADVICE_RATE = 10;       // Hz at most
 constexpr double LEAST_ADVICE_RATE = 5;  // Hz: clouds shrink if an update takes longer than its share of the time
@@ -47,4 +47,4 @@ class AdviceLoop final : public LiveAdvice {
   std::shared_ptr<Shared> shared_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

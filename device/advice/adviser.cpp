@@ -14,7 +14,7 @@
 #include "host/open_backend.h"
 #include "shaders/status.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr std::size_t RATED_BY_CORE = 8;  // of a cloud
@@ -237,4 +237,4 @@ Advice Adviser::advise(const AdviceQuestion& question, std::size_t grips, const 
   return advice;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -14,7 +14,7 @@
 #include "core/evaluator.h"
 #include "device/advice/advice.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The question: how a hand stands to a vessel, and what the vessel contains.
 struct AdviceQuestion {
@@ -96,4 +96,4 @@ class Adviser {
   std::vector<std::string> notes_, noted_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

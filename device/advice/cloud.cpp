@@ -7,7 +7,7 @@
 
 #include "base/numbers/sobol.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr std::array<double GripInput::*, 5> PLACES{&GripInput::height, &GripInput::azimuth, &GripInput::obliquity,
@@ -95,4 +95,4 @@ std::vector<GripInput> grip_cloud(const Reach& reach, const GripInput& present, 
   return grips;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

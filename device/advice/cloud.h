@@ -9,7 +9,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // How far from the present grip an advised one may lie: more would not be a correction of a moving hand (ours).
 constexpr double REACH_HEIGHT = 40e-3, MOST_OFFSET = 10e-3;  // m; the offset is from the axis, not from the present one
@@ -38,4 +38,4 @@ double way_between(const GripInput& a, const GripInput& b);
 std::vector<GripInput> grip_cloud(const Reach& reach, const GripInput& present, const std::optional<GripInput>& best, double share,
                                   std::uint64_t turn, std::size_t count);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -11,7 +11,7 @@
 #include "device/session/vessel_tracker.h"
 #include "device/simulated/shown_grip.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The advice in a session's report.
 struct AdviceTally {
@@ -40,4 +40,4 @@ class LiveAdvice {
   virtual AdviceTally tally() const = 0;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

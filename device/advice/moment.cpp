@@ -4,7 +4,7 @@
 #include "core/mirror.h"
 #include "device/advice/present_grip.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 Advice advice_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses, Adviser& adviser, std::size_t grips,
                  bool keeps_line, const std::atomic<bool>* stop) {
@@ -39,4 +39,4 @@ ShownGrip shown_grip(const Scene& scene, const Advice& advice, const Adviser& ad
   return shown;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

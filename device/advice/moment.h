@@ -9,7 +9,7 @@
 #include "device/session/session.h"
 #include "device/simulated/shown_grip.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Advice for the moment of a tick, with the vessels at `poses`. Evaluates nothing if no vessel is near. Efforts of a held grip at tilts ahead use the
 // posture that the session keeps. `keeps_line` as in an AdviceQuestion. Throws as Adviser::advise.
@@ -19,4 +19,4 @@ Advice advice_of(const LiveScene& live, const Tick& tick, const VesselPoses& pos
 // The best grip, if it is better than the present one and the vessel is not held; else no grip (vessel -1).
 ShownGrip shown_grip(const Scene& scene, const Advice& advice, const Adviser& adviser);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -8,7 +8,7 @@
 #include "core/vectors.h"
 #include "device/advice/cloud.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Mat3;
 using core_f64::Vec3;
@@ -77,4 +77,4 @@ std::optional<Approach> approach_of(const LiveScene& live, const Tick& tick, con
   return Approach{vessel, is_held(tick.state), live.mirror(*grip)};
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -10,7 +10,7 @@
 #include "device/session/live_scene.h"
 #include "device/session/vessel_tracker.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The grip of two tips (thumb, index) and a gripper's axes, in the vessel's frame and the world of the right hand. Absent if the line of the tips
 // runs along the vessel's axis.
@@ -29,4 +29,4 @@ std::optional<Approach> approach_of(const LiveScene& live, const Tick& tick, con
 
 constexpr double NEAR_VESSEL = 0.2;  // m
 
-}  // namespace wholehand
+}  // namespace wholehand::device

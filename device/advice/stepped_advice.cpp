@@ -9,7 +9,7 @@
 
 #include "device/advice/moment.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 SteppedAdvice::SteppedAdvice(const Scene& scene, const std::string& on, const Options& options)
     : SteppedAdvice(
@@ -80,4 +80,4 @@ AdviceTally SteppedAdvice::tally() const {
   return tally_;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -7,7 +7,7 @@
 
 #include "device/advice/advice_loop.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Every 1 / LEAST_ADVICE_RATE s of session time, computes advice for that tick with STEP_CLOUD grips. The advice appears at the next such tick: it
 // counts as having taken that long.
@@ -52,4 +52,4 @@ class SteppedAdvice final : public LiveAdvice, public ShownGripSource {
   AdviceTally tally_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

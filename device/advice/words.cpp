@@ -7,7 +7,7 @@
 
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Vec3;
 
@@ -109,4 +109,4 @@ std::string advice_words(const Advice& advice) {
   return words.empty() && advice.present.is_possible ? "this grip is good" : words;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -6,7 +6,7 @@
 
 #include "device/advice/advice.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // For a moving hand: "8 mm higher, wrist 12 degrees up: effort 0.21 to 0.09", "this grip is good: effort 0.09", or "no grip within reach is
 // possible". For a holding hand: "at 70 degrees the grip needs 0.40 of your strength; tilt over the other side: 0.21", and then the effort of another
@@ -23,4 +23,4 @@ std::string way_words(const GripInput& from, const GripInput& to, const Rotation
 // "0.21", "1.30", or "more than any strength" for an infinite effort.
 std::string effort_words(double effort);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

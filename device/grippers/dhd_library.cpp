@@ -11,7 +11,7 @@
 #include "base/text/error.h"
 #include "base/text/text.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 const std::vector<std::string> DHD_LIBRARY_NAMES{"libdhd.so.3", "libdhd.so", "libdrd.so.3", "libdrd.so"};
 
@@ -115,4 +115,4 @@ DhdLibrary load_dhd_library(const std::string& path, const std::vector<std::stri
   return dhd;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

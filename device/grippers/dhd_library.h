@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The SDK calls in use, by the vendor's names without `dhd`. Except those that return text or time, they return a negative number on failure and 0 or
 // a positive one otherwise: 1 (asked again too soon, repeats the last answer) and 2 (a motor is saturated) are no errors. `id` comes from open_id.
@@ -45,4 +45,4 @@ extern const std::vector<std::string> DHD_LIBRARY_NAMES;
 // loader's words; or what the SDK is, where to get it and how to name its path; or the symbol that the library lacks.
 DhdLibrary load_dhd_library(const std::string& path, const std::vector<std::string>& names = DHD_LIBRARY_NAMES);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

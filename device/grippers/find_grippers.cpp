@@ -5,7 +5,7 @@
 #include "device/grippers/omega_gripper.h"
 #include "device/grippers/usb_gripper.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 void append(std::vector<GripperFound>& all, const std::vector<GripperFound>& some) {
@@ -33,4 +33,4 @@ std::vector<GripperFound> find_grippers(const std::string& dhd_library) {
   return all;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

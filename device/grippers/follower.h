@@ -7,7 +7,7 @@
 
 #include "core/real.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // How fast something follows.
 struct Pace {
@@ -31,4 +31,4 @@ V follow(V offset, V& velocity, const Pace& pace, double seconds) noexcept {
   return move;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -20,7 +20,7 @@
 #include "device/grippers/protocol.h"
 #include "device/grippers/protocol_gripper.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr int HIDRAW_QUEUE = 63;  // the kernel's ring of 64 entries, one of them free
@@ -193,4 +193,4 @@ std::vector<GripperFound> find_hid_grippers() {
   return grippers;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -14,7 +14,7 @@
 #include "device/grippers/session_lock.h"
 #include "device/loop/panic.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 Triple from_dhd(const Triple& vector) { return {vector[1], vector[2], vector[0]}; }
 Triple to_dhd(const Triple& vector) { return {vector[2], vector[0], vector[1]}; }
@@ -312,4 +312,4 @@ std::vector<GripperFound> find_omega_grippers(const std::string& library) {
   return found;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

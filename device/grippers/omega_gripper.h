@@ -8,7 +8,7 @@
 
 #include "device/loop/gripper.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Converts between the SDK's frame (+x towards the person, +y to the right, +z up; CHAI3D, "Haptic devices", General conventions,
 // https://chai3d.org/download/doc/html/chapter6-haptic-devices.html) and the device frame of device/session/tick.h (+x right, +y up, +z towards the
@@ -40,4 +40,4 @@ std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_
 // Every device that the SDK counts, opened briefly. Without SDK or device: one entry that says so. Does not throw.
 std::vector<GripperFound> find_omega_grippers(const std::string& library);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -22,7 +22,7 @@
 #include "device/grippers/packet_motion.h"
 #include "device/loop/guard.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr int MOST_DATAGRAMS = 32;              // read at once at most, so that a flooded port does not delay the loop
@@ -416,4 +416,4 @@ std::unique_ptr<Gripper> open_osc(const HostPort& at, const Scene& scene, const 
   return gripper;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

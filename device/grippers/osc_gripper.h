@@ -11,7 +11,7 @@
 #include "core/scene.h"
 #include "device/loop/gripper.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr double OSC_START = 10;       // s that a session waits for its first state
 constexpr double OSC_SILENCE = 50e-3;  // s without a new state after which the hand counts as gone
@@ -22,4 +22,4 @@ constexpr double OSC_SILENCE = 50e-3;  // s without a new state after which the 
 std::unique_ptr<Gripper> open_osc(const HostPort& at, const Scene& scene, const std::function<void(const std::string&)>& say,
                                   double patience = OSC_START);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -11,7 +11,7 @@
 #include "core/quaternion.h"
 #include "core/vectors.h"
 
-namespace wholehand::osc {
+namespace wholehand::device::osc {
 namespace {
 
 constexpr const char* WRONG_ARGUMENTS = "arguments of another number or type";
@@ -112,4 +112,4 @@ const char* read_words(std::span<const char> datagram, Words& words) noexcept {
   return wrong;
 }
 
-}  // namespace wholehand::osc
+}  // namespace wholehand::device::osc

@@ -10,7 +10,7 @@
 #include "device/loop/gripper.h"
 #include "device/session/tick.h"
 
-namespace wholehand::osc {
+namespace wholehand::device::osc {
 
 constexpr const char* HELLO = "/wholehand/gripper/hello";
 constexpr const char* STATE = "/wholehand/gripper/state";
@@ -48,4 +48,4 @@ const char* read_words(std::span<const char> datagram, Words& words) noexcept;
 // Whether sequence `a` comes after `b`; both wrap from 2^32 - 1 to 0.
 constexpr bool is_later(std::uint32_t a, std::uint32_t b) { return static_cast<std::int32_t>(a - b) > 0; }
 
-}  // namespace wholehand::osc
+}  // namespace wholehand::device::osc

@@ -10,7 +10,7 @@
 #include "core/vectors.h"
 #include "device/loop/guard.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 PacketMotion::Pose PacketMotion::pose_of(const GripperState& state) noexcept {
   return {to_vec3(state.position), to_quat(to_mat3(state.rotation)), state.gap};
@@ -71,4 +71,4 @@ bool PacketSteps::allows(const GripperState& state, std::int64_t tick) noexcept 
   return is_allowed;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 #include "core/real.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Moves evenly to the newest measurement, and rests there until the next. A move takes as long as the longest of the last INTERVALS between
 // measurements; a longer earlier one is forgotten slowly. So a sender of one measurement per tick is followed at once, and one of 60 Hz a sixtieth of
@@ -76,4 +76,4 @@ class PacketSteps {
   std::int64_t heard_ = 0;  // its tick
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

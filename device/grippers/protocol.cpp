@@ -9,7 +9,7 @@
 #include "base/text/readable.h"
 #include "core/quaternion.h"
 
-namespace wholehand::protocol {
+namespace wholehand::device::protocol {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> MAGIC{'W', 'H', 'G', 'P'};
@@ -386,4 +386,4 @@ std::string summary_of(const GripperLimits& limits) {
                      limits.has_rotation ? "" : ", rotation not measured");
 }
 
-}  // namespace wholehand::protocol
+}  // namespace wholehand::device::protocol

@@ -12,7 +12,7 @@
 #include "device/loop/gripper.h"
 #include "device/session/tick.h"
 
-namespace wholehand::protocol {
+namespace wholehand::device::protocol {
 
 constexpr std::uint8_t VERSION = 1;
 
@@ -125,4 +125,4 @@ GripperLimits limits_of(const Identity& identity, const std::string& address);
 // "12 N, grip 8 N, gap 0 to 25 mm, 1000 Hz, right-handed"
 std::string summary_of(const GripperLimits& limits);
 
-}  // namespace wholehand::protocol
+}  // namespace wholehand::device::protocol

@@ -13,7 +13,7 @@
 #include "base/text/error.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using protocol::Wrong;
@@ -220,4 +220,4 @@ std::string no_permission(const std::string& node) {
       node);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 #include "device/grippers/transport.h"
 #include "device/loop/gripper.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Reads and checks the identity. Returns what is wrong with it, in one line; empty: nothing.
 std::string read_identity(Transport& transport, protocol::Identity& identity);
@@ -26,4 +26,4 @@ std::unique_ptr<Gripper> open_over(std::unique_ptr<Transport> transport, const s
 std::string no_permission(const std::string& node);
 constexpr const char* IN_USE = "in use by another session";
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -13,7 +13,7 @@
 
 #include "base/text/error.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // One for all users, since two of them may use the same device.
@@ -47,4 +47,4 @@ SessionLock::SessionLock(const std::string& name) {
 
 SessionLock::~SessionLock() { close(file_); }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Holds the lock file `wholehand-NAME.lock` in WHOLEHAND_LOCK_DIR, else in /run/lock, else in /tmp. The file stays behind; the lock does not. It
 // works across all users.
@@ -20,4 +20,4 @@ class SessionLock {
   int file_ = -1;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 #include "device/grippers/protocol.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The maker opens it, the destructor closes it. No method throws; receive() and send() allocate nothing themselves.
 class Transport {
@@ -35,4 +35,4 @@ class Transport {
   virtual bool panic(protocol::Bytes report) noexcept = 0;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

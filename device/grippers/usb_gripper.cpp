@@ -14,7 +14,7 @@
 #include "device/grippers/protocol_gripper.h"
 #include "device/grippers/usb_transport.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // The first interface of the active configuration that is a gripper's, with its first interrupt endpoint each way.
@@ -159,4 +159,4 @@ std::vector<GripperFound> find_usb_grippers() {
   return grippers;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

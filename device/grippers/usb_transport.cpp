@@ -13,7 +13,7 @@
 #include "device/grippers/protocol_gripper.h"
 #include "device/loop/panic.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr int OUT_PATIENCE = 10;                               // writes that find the one before still under way
@@ -276,4 +276,4 @@ bool UsbTransport::set_feature(protocol::Bytes report) noexcept {
   return code == static_cast<int>(report.size()) || failed(code, "it does not take the setting");
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

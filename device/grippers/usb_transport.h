@@ -14,7 +14,7 @@
 
 #include "device/grippers/transport.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 struct UsbContextCloser {
   void operator()(libusb_context* context) const { libusb_exit(context); }
@@ -95,4 +95,4 @@ class UsbTransport final : public Transport {
   const char* last_error_ = "";
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

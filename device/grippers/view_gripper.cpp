@@ -10,7 +10,7 @@
 #include "core/vectors.h"
 #include "device/grippers/follower.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Vec3;
@@ -155,4 +155,4 @@ bool ViewInput::post(const ViewControl& control) {
 
 std::unique_ptr<Gripper> open_view(const Scene& scene, ViewInput& input) { return std::make_unique<ViewGripper>(scene, input); }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

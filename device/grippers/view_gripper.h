@@ -11,7 +11,7 @@
 #include "device/session/newest.h"
 #include "device/session/workspace.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The page's target for the hand, in the scene's own world, regardless of [device].
 struct ViewControl {
@@ -74,4 +74,4 @@ constexpr double VIEW_TURN = 10;         // rad/s: a third of a quick wrist
 constexpr double VIEW_REACH = 0.4;       // m around the vessels and the target
 constexpr double VIEW_CLEARANCE = 0.15;  // m in front of them, the hand's start
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -10,7 +10,7 @@
 #include "base/system/clock.h"
 #include "device/loop/realtime.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr long LOOK_NS = 2'000'000;     // between two looks
@@ -99,4 +99,4 @@ ReleaseResult CallWatch::rescue() noexcept {
   return is_answered_ ? outcome_.load() : ReleaseResult::not_attempted;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

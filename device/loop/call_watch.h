@@ -9,7 +9,7 @@
 
 #include "device/loop/gripper.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr double CALL_PATIENCE = 12e-3;  // s: READ_PATIENCE, plus the excess of a wait
 constexpr double CALL_LOST = 1;          // s: then a call that has not returned, and the session, are given up
@@ -68,4 +68,4 @@ class CallWatch {
   std::thread thread_;  // declared last: it uses all of the above
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -14,7 +14,7 @@
 #include "device/loop/wall_sweep.h"
 #include "device/session/workspace.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // The lightest finger, on users of every usual reaction.
@@ -86,4 +86,4 @@ void refuse_unstable_gains(const Scene& scene, std::array<double, 2> device_gap,
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

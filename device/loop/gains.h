@@ -6,7 +6,7 @@
 
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The largest gains at a rate that settle, at the device, N/m, on the lightest devices of the reports that have a damping of 1 N s/m or more. K: the
 // linear limit of a wall without delay. k_open: the smallest found by simulation for users who react after 60 to 90 ms, with the gripper of GripLoop
@@ -26,4 +26,4 @@ double device_slope(const Scene& scene, std::array<double, 2> device_gap);
 // `unsafe`.
 void refuse_unstable_gains(const Scene& scene, std::array<double, 2> device_gap, bool unsafe);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -13,7 +13,7 @@
 #include "core/scene.h"
 #include "device/loop/wall.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double TO_GRASP = 2, TO_SETTLE = 2, LAST = 0.5;  // s
@@ -248,4 +248,4 @@ std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::strin
   return csv;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

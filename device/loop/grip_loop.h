@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::device {
 
 // One session of holding and tilting; SI. x is how far the fingers have closed since the grasp, g_grasp - g.
 //
@@ -64,4 +64,4 @@ struct GripLoopRow {
 std::vector<GripLoopRow> grip_loop_rows(bool quick);
 std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::string& run);  // `run` as for wall_limits_csv
 
-}  // namespace wholehand
+}  // namespace wholehand::device

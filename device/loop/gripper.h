@@ -15,7 +15,7 @@
 #include "device/loop/release_result.h"
 #include "device/session/reach.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Whether every number in it is finite.
 inline bool is_finite(const GripperForce& force) {
@@ -109,4 +109,4 @@ struct GripperFound {
   Remedy remedy = Remedy::none;  // of what is missing
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 #include "core/vectors.h"
 #include "device/loop/call_watch.h"
 
-namespace wholehand {
+namespace wholehand::device {
 // The length of their difference over the root of two.
 double turned_by(const Rotation& a, const Rotation& b) noexcept {
   double squares = 0;
@@ -80,4 +80,4 @@ GripperForce Guard::limit(const GripperForce& wanted, std::int64_t number) noexc
   return written_;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

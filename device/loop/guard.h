@@ -8,7 +8,7 @@
 #include "core/scene.h"
 #include "device/loop/gripper.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Checks every read and limits every write of a session. Neither allocates nor throws.
 class Guard {
@@ -52,4 +52,4 @@ double turned_by(const Rotation& a, const Rotation& b) noexcept;
 constexpr double STALL = 15e-3;    // s: less than the watchdog period of a device
 constexpr double JUMP_TURN = 100;  // rad/s: a quick wrist turns at 30
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -12,7 +12,7 @@
 #include "core/vectors.h"
 #include "device/loop/panic.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 void sleep_until(double moment) noexcept {
@@ -219,4 +219,4 @@ std::optional<LoopReport> HapticLoop::ending() const {
   return ending;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -15,7 +15,7 @@
 #include "device/loop/histogram.h"
 #include "device/session/session.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 struct LoopOptions {
   double seconds = 0;          // duration; 0: until the gripper is done, or forever
@@ -94,4 +94,4 @@ class HapticLoop {
   std::atomic<ReleaseResult> release_{ReleaseResult::not_attempted};
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Nanoseconds as 2^octave (1 + part / PARTS).
 void Histogram::add(double seconds) noexcept {
@@ -35,4 +35,4 @@ double Histogram::quantile(double share) const noexcept {
   return largest_;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Times from 1 ns to an hour, to 1/1024 of each. Neither allocates nor throws.
 class Histogram {
@@ -23,4 +23,4 @@ class Histogram {
   double largest_ = 0;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -11,7 +11,7 @@
 #include "base/system/failure_signals.h"
 #include "device/loop/safe_line.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // from outside; the real-time ones are added
@@ -163,4 +163,4 @@ HandlerStack::HandlerStack() : bytes_(HANDLER_STACK) {
 
 HandlerStack::~HandlerStack() { sigaltstack(&before_, nullptr); }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

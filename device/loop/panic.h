@@ -8,7 +8,7 @@
 #include "device/loop/call_watch.h"
 #include "device/loop/gripper.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // A separate stack for signal handlers of the thread that makes it, in case the thread's own stack is what failed. Restores the previous one.
 class HandlerStack {
@@ -64,4 +64,4 @@ class ExitGuard {
   ExitGuard& operator=(const ExitGuard&) = delete;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -13,7 +13,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr int PRIORITY = 80;              // of 1..99: above interrupt threads' 50
@@ -60,4 +60,4 @@ std::vector<std::string> make_realtime() {
   return notes;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

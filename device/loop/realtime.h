@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Puts the calling thread under SCHED_FIFO, above everything but the kernel's own, and locks the memory that the process has by now. Returns a line
 // with the remedy for each that is not permitted; the loop runs without it, and the system decides later wakings.
@@ -14,4 +14,4 @@ std::vector<std::string> make_realtime();
 // Gives the calling thread a higher priority than that, if permitted: for a watching thread that mostly sleeps.
 void outrank_realtime() noexcept;
 
-}  // namespace wholehand
+}  // namespace wholehand::device

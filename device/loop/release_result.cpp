@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/loop/release_result.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double NO_FORCE = 0.005;  // N: what two decimals say as 0
@@ -42,4 +42,4 @@ void add_force_words(SafeLine& line, ReleaseResult outcome, const ForceSize& las
   add_last(line, last, watchdog);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

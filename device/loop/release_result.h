@@ -7,7 +7,7 @@
 
 #include "device/loop/safe_line.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 enum class ReleaseResult : std::uint8_t {
   no_force,       // it had no force: never switched on, or the gripper discards forces
@@ -28,4 +28,4 @@ constexpr double UNKNOWN_WATCHDOG = -1;  // instead of a period: the watchdog is
 void add_force_words(SafeLine& line, ReleaseResult outcome, const ForceSize& last, double watchdog,
                      std::string_view why = {}) noexcept;
 
-}  // namespace wholehand
+}  // namespace wholehand::device

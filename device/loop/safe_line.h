@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Text that does not fit is dropped.
 class SafeLine {
@@ -60,4 +60,4 @@ class SafeLine {
   std::size_t size_ = 0;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

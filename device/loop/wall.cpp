@@ -15,7 +15,7 @@
 #include "core/loop.h"
 #include "core/wall_run.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double NO_LIMIT = std::numeric_limits<double>::infinity();
@@ -186,4 +186,4 @@ std::string wall_table(const WallDevice& device, const WallLimits& limits) {
       number(limits.coulomb));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

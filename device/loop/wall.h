@@ -7,7 +7,7 @@
 
 #include "core/wall_case.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // One axis of a device and, if there is one, the finger on it; SI.
 struct WallDevice {
@@ -53,4 +53,4 @@ double largest_stable(const std::function<bool(double stiffness)>& is_stable);
 std::string wall_json(const WallLimits& limits);                             // one line; null if nothing limits
 std::string wall_table(const WallDevice& device, const WallLimits& limits);  // for people
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -12,7 +12,7 @@
 #include "base/text/text.h"
 #include "core/wall_run.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr std::size_t POINTS_AT_ONCE = 4096;  // between two questions whether to go on: a fraction of a second on two cores
@@ -223,4 +223,4 @@ std::string wall_limits_csv(const std::vector<WallSheet>& sheets, const std::str
   return csv;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 
 #include "device/loop/wall.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // One press of a device against a wall.
 struct WallPoint {
@@ -54,4 +54,4 @@ std::string wall_csv(const std::vector<WallSheet>& sheets);  // a row a point
 // One row per column; each ends with the run's columns (`device,driver,version,seed`).
 std::string wall_limits_csv(const std::vector<WallSheet>& sheets, const std::string& run);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

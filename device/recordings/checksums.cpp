@@ -8,7 +8,7 @@
 #include "base/files/checksum.h"
 #include "base/text/error.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using classic::Attribute;
 using classic::Header;
@@ -67,4 +67,4 @@ std::uint32_t RecordChecksums::next(const char* record) {
   return static_cast<std::uint32_t>(before_);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -8,7 +8,7 @@
 
 #include "device/recordings/classic_netcdf.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr const char* CHECKSUM = "checksum";  // a variable over the ticks, and an attribute
 
@@ -39,4 +39,4 @@ class RecordChecksums {
   std::string values_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

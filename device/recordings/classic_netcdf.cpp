@@ -7,7 +7,7 @@
 
 #include "base/text/error.h"
 
-namespace wholehand::classic {
+namespace wholehand::device::classic {
 namespace {
 
 constexpr std::string_view MAGIC{"CDF\2", 4};
@@ -251,4 +251,4 @@ Header parse_header(std::string_view start, std::uint64_t file_size) {
   return header;
 }
 
-}  // namespace wholehand::classic
+}  // namespace wholehand::device::classic

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace wholehand::classic {
+namespace wholehand::device::classic {
 
 enum class Type : std::uint32_t { byte = 1, text = 2, int16 = 3, int32 = 4, float32 = 5, float64 = 6 };
 std::uint64_t type_size(Type type);
@@ -92,4 +92,4 @@ inline std::uint32_t load_32(const char* bytes) {
 inline std::uint64_t load_64(const char* bytes) { return static_cast<std::uint64_t>(load_32(bytes)) << 32 | load_32(bytes + 4); }
 inline double load_real(const char* bytes) { return std::bit_cast<double>(load_64(bytes)); }
 
-}  // namespace wholehand::classic
+}  // namespace wholehand::device::classic

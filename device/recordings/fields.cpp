@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 static_assert(std::is_standard_layout_v<Tick> && std::is_trivially_copyable_v<Tick>, "a field is its offset");
@@ -229,4 +229,4 @@ bool load_field(const char* bytes, const RecordedField& field, Tick& tick, std::
   return true;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

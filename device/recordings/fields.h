@@ -10,7 +10,7 @@
 #include "device/recordings/classic_netcdf.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // How a number of a tick is stored in the file.
 enum class RecordedAs : std::uint8_t {
@@ -47,4 +47,4 @@ void append_field(std::string& bytes, const RecordedField& field, const Tick& ti
 // The inverse; false if a value is not allowed for the field. `bytes` holds what append_field writes.
 bool load_field(const char* bytes, const RecordedField& field, Tick& tick, std::size_t vessels);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // At F_max the gripper renders neither what the torque adds nor what the user does.
@@ -74,4 +74,4 @@ void GraspCollector::close_liquid(int vessel, const Volumes& arrived, const Volu
   pouring_[v].reset();
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -10,7 +10,7 @@
 #include "device/recordings/grasp_measure.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 class GraspCollector {
  public:
@@ -44,4 +44,4 @@ class GraspCollector {
   std::vector<GraspReport> grasps_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

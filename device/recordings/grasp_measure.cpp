@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::device {
 
 const std::array<const char*, GRIP_COURSES> GRIP_COURSE_NAMES{"", "G1", "G2", "G3", "G4"};
 const std::array<const char*, 4> GRASP_OUTCOME_NAMES{"let go", "lost", "released", "recording ends"};
@@ -220,4 +220,4 @@ GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost)
   return grasp;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

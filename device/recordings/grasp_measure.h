@@ -10,7 +10,7 @@
 #include "core/scene.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr double RESPONSE_SPEED = 2e-3;         // m/s: a slower gap has come to rest,
 constexpr double RESPONSE_CALM = 50e-3;         // s: if it stays so for this long
@@ -76,4 +76,4 @@ std::int64_t periods_of(std::span<const Tick> ticks, std::size_t k);
 // The smaller of the largest rise and the largest fall between two values, in order: 0 if they only go one way.
 double turning_back(std::span<const double> values);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

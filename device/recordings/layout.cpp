@@ -15,7 +15,7 @@
 #include "device/recordings/checksums.h"
 #include "device/recordings/fields.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using classic::Attribute;
@@ -368,4 +368,4 @@ std::optional<RecordingEnd> end_of(const Header& header) {
   return end;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 #include "device/recordings/classic_netcdf.h"
 #include "device/recordings/recording.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr const char* TICK_DIMENSION = "tick";
 constexpr const char* TIME_VARIABLE = "time";
@@ -34,4 +34,4 @@ std::optional<RecordingEnd> end_of(const classic::Header& header);
 // The names of a variable's dimensions, in one line.
 std::string dimension_names(const classic::Header& header, const classic::Variable& variable);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -15,7 +15,7 @@
 #include "device/recordings/layout.h"
 #include "device/recordings/recording.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr std::uint64_t READ_AT_ONCE = 1 << 20;  // bytes
@@ -173,4 +173,4 @@ Recording read_recording(const std::string& path) {
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -6,7 +6,7 @@
 
 #include "base/system/block_signals.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr std::size_t BLOCK = 1024;  // ticks
@@ -77,4 +77,4 @@ bool Recorder::stop(const RecordingEnd& end) {
   return is_whole_;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

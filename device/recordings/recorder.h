@@ -16,7 +16,7 @@
 #include "device/recordings/recording.h"
 #include "device/session/tick_ring.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr std::chrono::milliseconds DRAIN_INTERVAL{
     50};  // a killed process loses at most this much, and some 400 ticks at 8 kHz wait
@@ -66,4 +66,4 @@ class Recorder {
   std::thread thread_;  // declared last: it uses all of the above
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

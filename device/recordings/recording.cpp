@@ -4,7 +4,7 @@
 #include "core/people/person.h"
 #include "core/reader/reader.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 Scene scene_of_recording(const RecordingInfo& info) {
   Scene scene = parse_scene(info.scene_text, info.scene_file);
@@ -16,4 +16,4 @@ void take_hand_of(Scene& scene, std::uint64_t seed, std::uint64_t person) {
   scene.hand = hand_of(scene.hand, draw_person(scene.people, seed, person));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

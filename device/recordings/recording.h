@@ -15,7 +15,7 @@
 #include "device/recordings/classic_netcdf.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 struct RecordedVessel {
   std::string name;
@@ -143,4 +143,4 @@ Scene scene_of_recording(const RecordingInfo& info);
 // Gives a scene the hand of a virtual person, drawn by the scene's own [people].
 void take_hand_of(Scene& scene, std::uint64_t seed, std::uint64_t person);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -7,7 +7,7 @@
 #include "base/files/json.h"
 #include "device/recordings/session_report.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using SessionJson = nlohmann::ordered_json;
@@ -119,4 +119,4 @@ std::string session_json(const SessionReport& report) {
   return json_text(json);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -12,7 +12,7 @@
 #include "base/charts/picture.h"
 #include "base/charts/plot.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // units; pixels a unit
@@ -203,4 +203,4 @@ std::string session_picture(const Recording& recording, const SessionReport& rep
   return svg.close().written();
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

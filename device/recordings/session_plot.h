@@ -7,9 +7,9 @@
 #include "device/recordings/recording.h"
 #include "device/recordings/session_report.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The text of the picture; there is at least one tick.
 std::string session_picture(const Recording& recording, const SessionReport& report);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

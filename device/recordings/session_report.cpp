@@ -6,7 +6,7 @@
 
 #include "device/recordings/grasp_collector.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // Nearest rank: the smallest value that the wanted share of all do not exceed. `values` in any order; none: zeros.
@@ -148,4 +148,4 @@ SessionReport report_session(const Recording& recording) {
   return report;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

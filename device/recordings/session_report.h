@@ -9,7 +9,7 @@
 #include "device/recordings/grasp_measure.h"
 #include "device/recordings/recording.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // A stretch of ticks in one state, of one vessel.
 struct StateRun {
@@ -62,4 +62,4 @@ std::string session_json(const SessionReport& report);
 std::string grasps_csv(const SessionReport& report);
 std::string states_csv(const SessionReport& report);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -10,7 +10,7 @@
 #include "base/text/text.h"
 #include "device/recordings/session_report.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // "-" where there is none.
@@ -208,4 +208,4 @@ std::string states_csv(const SessionReport& report) {
   return csv;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

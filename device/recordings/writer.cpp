@@ -17,7 +17,7 @@
 #include "device/recordings/layout.h"
 #include "device/recordings/recording.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 std::string partial_recording(const std::string& path) { return followed(path) + ".partial"; }
@@ -199,4 +199,4 @@ bool RecordingWriter::publish() {
   return false;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

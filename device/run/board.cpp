@@ -7,7 +7,7 @@
 #include "base/system/progress.h"
 #include "device/advice/words.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 void Board::look(std::span<const Tick> ticks) {
   std::vector<std::string> lines;
@@ -60,4 +60,4 @@ void Board::show(bool quiet) {
   show_status(status);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

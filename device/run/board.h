@@ -11,7 +11,7 @@
 
 #include "device/run/report.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 class Board {
  public:
@@ -38,4 +38,4 @@ class Board {
   std::string status_, advice_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

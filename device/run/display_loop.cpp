@@ -5,7 +5,7 @@
 
 #include "base/system/block_signals.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr std::chrono::microseconds PERIOD{static_cast<std::int64_t>(1e6 / DISPLAY_RATE)};
@@ -111,4 +111,4 @@ double DisplayLoop::measured_rate(std::int64_t ticks, std::int64_t number) {
   return live_.scene.live.rate * static_cast<double>(ticks - before.ticks) / static_cast<double>(number - before.number);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

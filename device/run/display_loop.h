@@ -15,7 +15,7 @@
 #include "device/advice/advice.h"
 #include "device/session/hand_view.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr double DISPLAY_RATE = 60;  // Hz
 
@@ -97,4 +97,4 @@ class DisplayLoop {
   std::thread thread_;  // declared last: it uses all of the above
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

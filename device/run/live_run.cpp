@@ -18,7 +18,7 @@
 #include "device/loop/panic.h"
 #include "device/loop/realtime.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double RING_TIME = 4;  // s of ticks that wait while a disk pauses
@@ -256,4 +256,4 @@ void LiveRun::print_summary(const LoopReport& report, const Recorder& recorder, 
   print(options_.json ? live_json(summary) : live_text(summary));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

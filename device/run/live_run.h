@@ -18,7 +18,7 @@
 #include "device/session/session.h"
 #include "device/session/tick_ring.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 struct LiveRunOptions {
   double seconds = 0;                     // 0: until the gripper is done, or forever
@@ -71,4 +71,4 @@ class LiveRun {
   HapticLoop loop_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

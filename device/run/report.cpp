@@ -13,7 +13,7 @@
 #include "core/vectors.h"
 #include "device/advice/words.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double ML = 1e6;  // a m3
@@ -214,4 +214,4 @@ std::string fault_line(const LoopReport& report, const Guard& guard, const LiveD
                      force_words(report, watchdog));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

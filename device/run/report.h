@@ -12,7 +12,7 @@
 #include "device/session/amounts.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Turns ticks, of which some may be missing, into lines for people.
 class Narrator {
@@ -73,4 +73,4 @@ bool is_force_left(const LoopReport& report);
 // The force's fate at the end of a session; `watchdog`: the device's, s.
 std::string force_words(const LoopReport& report, double watchdog);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

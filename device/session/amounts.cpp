@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/session/amounts.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 double total_spilled(const Scene& scene, const Tick& tick) {
   double spilled = 0;
@@ -28,4 +28,4 @@ std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick) {
   return amounts;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

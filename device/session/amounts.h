@@ -9,7 +9,7 @@
 #include "core/scene.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The paper's mixing board: the volume in the target of each liquid that a task wants, m3.
 struct MixedAmount {
@@ -21,4 +21,4 @@ std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick);
 double total_arrived(const Scene& scene, const Tick& tick, std::string_view liquid);
 double total_spilled(const Scene& scene, const Tick& tick);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -4,7 +4,7 @@
 #include "core/grip_effort.h"
 #include "device/session/held_hand.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Effort;
 using core_f64::EffortSolver;
@@ -33,4 +33,4 @@ std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const
   return hold;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -10,7 +10,7 @@
 #include "device/session/tick.h"
 #include "device/session/vessel_tracker.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // One pressing contact, world frame of the scene.
 struct HandPress {
@@ -37,4 +37,4 @@ struct HandHold {
 // has no strengths, or nothing is held. It depends only on these arguments, so a recording shows what its session did.
 std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 #include "core/prepare.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Mat3;
 using core_f64::Vec3;
@@ -242,4 +242,4 @@ double table_height(const Scene& scene) {
   return lowest;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

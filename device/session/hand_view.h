@@ -9,7 +9,7 @@
 #include "device/session/session.h"
 #include "device/session/vessel_tracker.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // free, touching a vessel, touching it because its finger was brought there (kernel 5), or a tip that the gripper tracks.
 enum class PointContact : std::uint8_t { free, touching, projected, tracked, tracked_touching };
@@ -61,4 +61,4 @@ constexpr double TARGET_WALL = 1.8e-3;  // m, outside of its diameter (ours: a s
 // y of the surface on which the vessels stand at the start: the lowest of their lowest points.
 double table_height(const Scene& scene);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -8,7 +8,7 @@
 #include "core/load.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Vec3;
 
@@ -62,4 +62,4 @@ core_f64::Wrench weight_of(const LiveScene& live, std::size_t vessel, double vol
   return core_f64::wrench_at(core_f64::load_center(load, lean), -load.mass * live.scene.gravity * up);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

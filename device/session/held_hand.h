@@ -9,7 +9,7 @@
 #include "core/held.h"
 #include "device/session/live_scene.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Everything is in the vessel's own frame, in the world of the right hand; m, N.
 class HeldHand {
@@ -47,4 +47,4 @@ core_f64::Wrench weight_of(const LiveScene& live, std::size_t vessel, double vol
 // The part of `volume` m3 that the vessel's lip holds back with `up` in its frame.
 double held_back(const LiveScene& live, std::size_t vessel, double volume, core_f64::Vec3 up);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

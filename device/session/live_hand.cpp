@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Mat3;
 using core_f64::Vec3;
@@ -50,4 +50,4 @@ core_f64::Closing close_live_hand(const core_f64::Hand& hand, const std::array<V
   return closing;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -6,7 +6,7 @@
 
 #include "core/closure.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The hand whose gripper's axes are `rotation` and whose tips' middle is `middle` (vessel or world frame), at a closure; `scale` is the hand's total
 // scale. `e1_x` as place_hand's.
@@ -18,4 +18,4 @@ core_f64::Placement place_live_hand(const core_f64::Hand& hand, double closure, 
 core_f64::Closing close_live_hand(const core_f64::Hand& hand, const std::array<core_f64::Vec3, 2>& contacts, core_f64::Vec3 place,
                                   const core_f64::Mat3& rotation, double& e1_x);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

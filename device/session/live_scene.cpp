@@ -17,7 +17,7 @@
 #include "device/session/tick.h"
 #include "device/session/workspace.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Vec3;
 
@@ -81,4 +81,4 @@ LiveScene::LiveScene(const Scene& given) : scene(given), mirror(scene.hand.hande
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

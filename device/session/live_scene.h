@@ -12,7 +12,7 @@
 #include "core/sdf.h"
 #include "device/session/vessel_tracker.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // A vessel's pose in the world of the right hand, as kernels take it.
 struct Stance {
@@ -46,4 +46,4 @@ struct LiveScene {
   int tutorial = -1;  // the vessel to carry to the destination: the first without liquid, if there is a task; -1: none
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

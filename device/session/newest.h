@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstddef>
 
-namespace wholehand {
+namespace wholehand::device {
 
 // One thread puts, one takes; neither ever waits for the other: no locks, no system calls, no allocation. There are three slots: each thread owns one
 // and exchanges it for the third.
@@ -43,4 +43,4 @@ class Newest {
   alignas(CACHE_LINE) unsigned front_ = 2;  // owned by the taking thread
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace wholehand {
+namespace wholehand::device {
 
 Pouring::Pouring(const std::vector<double>& volumes, const std::optional<TaskData>& task, double gravity, double rate)
     : task_(task), gravity_(gravity), rate_(rate) {
@@ -44,4 +44,4 @@ void Pouring::land(std::int64_t number) noexcept {
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

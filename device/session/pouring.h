@@ -11,7 +11,7 @@
 #include "core/scene.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Kernel 6 computes what a lip holds back at a tilt. The excess leaves with the time constant POUR_TIME (ours; a slow tilt hardly has any) and falls
 // freely from the lip's lowest point. If that point was above the target's mouth, a level disc, it arrives after the time of the fall; otherwise it
@@ -47,4 +47,4 @@ constexpr double POUR_TIME = 0.15;    // s
 constexpr double LONGEST_FALL = 2;    // s: 20 m; also without gravity
 constexpr double LEAST_DROP = 1e-15;  // m3: less is rounding and stays
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Vec3;
 
@@ -210,4 +210,4 @@ Proxy carry_proxy(const Obstacles& obstacles, const Proxy& before, Vec3 tip, dou
   return proxy;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -8,7 +8,7 @@
 #include "core/contact.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The obstacles: vessels upright at their places.
 struct Obstacles {
@@ -47,4 +47,4 @@ struct Proxy {
 Proxy carry_proxy(const Obstacles& obstacles, const Proxy& before, core_f64::Vec3 tip, double radius, double friction) noexcept;
 constexpr int PROXY_MOVES = 48;
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr std::int64_t LAST_TICK = std::int64_t{1} << 53;  // a time is this number over the rate, as a double
 // m: the limit of a scene's points. No arm reaches further, and differences lose their digits there.
@@ -33,4 +33,4 @@ inline bool is_in_reach(const GripperState& state) noexcept {
   return std::abs(state.gap) <= WIDEST_GAP;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

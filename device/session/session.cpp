@@ -12,7 +12,7 @@
 #include "core/trig.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Mat3;
 using core_f64::Vec3;
@@ -396,4 +396,4 @@ void Session::fill_vessel(const Stance& pose, Tick& tick) const noexcept {
   tick.vessel_rotation = live_->mirror.out(pose.rotation);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

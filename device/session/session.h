@@ -17,7 +17,7 @@
 #include "device/session/vessel_tracker.h"
 #include "device/session/workspace.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 class Session {
  public:
@@ -113,4 +113,4 @@ constexpr double PUT_DOWN = 15e-3;            // m: released this near to where 
 constexpr double DESTINATION_RADIUS = 30e-3;  // m
 constexpr double FULL_WEIGHT = 5e-3;          // m of lifting over which the weight comes on
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 constexpr int LIVE_VESSELS = 16;  // at most in a live scene
 
@@ -114,4 +114,4 @@ struct Tick {
   double step_time = 0;  // from having the measurement until the force was written
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

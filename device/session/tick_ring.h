@@ -9,7 +9,7 @@
 
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // A ring of ticks between one thread that pushes and one that pops. Neither ever waits for the other: no locks, no system calls, and no
 // allocation after construction. Ticks come out in the order in which they went in, each once.
@@ -64,4 +64,4 @@ class TickRing {
   std::size_t pushed_seen_ = 0;  // written by the popping thread
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

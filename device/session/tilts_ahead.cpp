@@ -7,7 +7,7 @@
 #include "core/grip_effort.h"
 #include "device/session/held_hand.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::EffortSolver;
 using core_f64::Vec3;
@@ -62,4 +62,4 @@ std::optional<TiltsAhead> tilts_ahead(const LiveScene& live, const Tick& tick, c
   return ahead;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -7,7 +7,7 @@
 
 #include "device/session/hand_view.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // One tilt, and the least effort there of the whole hand, as shares of its strength (infinite: no force holds the vessel): tilted further over the
 // side to which the vessel leans, and over the opposite one.
@@ -37,4 +37,4 @@ struct TiltsAhead {
 // For a tick with a held vessel; `hand` is the posture of that tick. Nothing if nothing is held or the scene has no strengths.
 std::optional<TiltsAhead> tilts_ahead(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

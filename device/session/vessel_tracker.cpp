@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace wholehand {
+namespace wholehand::device {
 
 VesselTracker::VesselTracker(const Scene& scene) {
   for (std::size_t v = 0; v < std::min(scene.vessels.size(), poses_.size()); ++v) poses_[v].place = scene.vessels[v].place;
@@ -38,4 +38,4 @@ VesselPoses VesselHistory::at(std::size_t tick) const noexcept {
   return poses;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

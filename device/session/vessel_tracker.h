@@ -9,7 +9,7 @@
 
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // World frame: of the vessel's origin, m, and vessel to world.
 struct VesselPose {
@@ -51,4 +51,4 @@ class VesselHistory {
   std::array<std::vector<Stretch>, LIVE_VESSELS> stretches_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -7,7 +7,7 @@
 #include "base/text/error.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Mat3;
 using core_f64::Vec3;
@@ -64,4 +64,4 @@ double minimum_jerk(double t) {
   return s * s * s * (10 + s * (6 * s - 15));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -7,7 +7,7 @@
 #include "core/scene.h"
 #include "device/session/tick.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Where a gripper puts the hand: `middle` between the two tips, `rotation` of the gripper's axes, the hand's gap. A left hand moves as the right hand
 // of the world mirrored in x, so these are in that world (docs/method.md).
@@ -57,4 +57,4 @@ double coupling_slope(double workspace_scale, double gap_slope);
 // A minimum-jerk rise from 0 to 1 over 0 to 1; constant outside.
 double minimum_jerk(double t);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -16,7 +16,7 @@
 #include "device/session/hand_view.h"
 #include "device/session/session.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Vec3;
 
@@ -163,4 +163,4 @@ Vec3 PourPath::middle(double tilt) const noexcept {
   return middle;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -10,7 +10,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // A ball that moves with the tips' middle: its offset in the gripper's axes while the vessel stands upright, m; world of the right hand.
 struct HeldBall {
@@ -45,4 +45,4 @@ class PourPath {
 
 constexpr double SIM_LARGEST_TILT = radians(140);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

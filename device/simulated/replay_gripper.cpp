@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // Where the session ended by itself, its time over or its user done, or by the loop's own doing.
@@ -51,4 +51,4 @@ std::unique_ptr<Gripper> make_replay(std::vector<Tick> ticks, GripperLimits limi
   return std::make_unique<ReplayGripper>(std::move(ticks), std::move(limits));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

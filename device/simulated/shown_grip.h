@@ -8,7 +8,7 @@
 #include "device/session/newest.h"
 #include "device/simulated/pour_path.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // In the world of the right hand; at azimuth and offset 0. A copy allocates nothing.
 struct ShownGrip {
@@ -36,4 +36,4 @@ class ShownGrips final : public ShownGripSource {
   Newest<ShownGrip> newest_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -5,7 +5,7 @@
 
 #include "device/session/workspace.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double SOFTEST = 100;          // N/m: what is softer is not pressed as far as a force would ask
@@ -59,4 +59,4 @@ void SimFingers::advance(double rendered, double trembling, double wandering) no
   motion_ = core_f64::advance(by_, motion_, drive);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -5,7 +5,7 @@
 #include "core/loop.h"
 #include "core/people_data.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // Fingers and jaw are one mass with damping; the fingers' stiffness holds it at a place that the person moves. Places are the closing from the
 // device's open gap, m; forces are those of the fingers, positive closes, N.
@@ -48,4 +48,4 @@ class SimFingers {
 // The jaw of the paper's gripper.
 constexpr double JAW_MASS = 0.05, JAW_DAMPING = 0.5;  // kg, N s/m
 
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -12,7 +12,7 @@
 #include "device/session/session.h"
 #include "device/simulated/sim_fingers.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Mat3;
@@ -223,4 +223,4 @@ std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, ShownG
   return open_sim(scene, seed, Participant(scene.people), shown);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

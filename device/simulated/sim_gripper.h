@@ -11,7 +11,7 @@
 #include "device/loop/gripper.h"
 #include "device/simulated/sim_user.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // The device is the paper's: 12 N at the arm, 8 N at the fingers; its gap is the hand's own unless [device] gap_mm says otherwise, and it measures at
 // the scene's rate. Its user (device/simulated/sim_user.h) is `person`. The user moves along minimum-jerk paths; holds the device with an arm and
@@ -26,4 +26,4 @@ std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, ShownG
 std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs,
                                   ShownGripSource* shown = nullptr);
 
-}  // namespace wholehand
+}  // namespace wholehand::device

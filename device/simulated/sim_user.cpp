@@ -14,7 +14,7 @@
 #include "core/prepare.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 using core_f64::Vec3;
 
@@ -347,4 +347,4 @@ void SimUser::go_on(bool feels) noexcept {
   begin(Phase::reach);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::device

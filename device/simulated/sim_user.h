@@ -13,7 +13,7 @@
 #include "device/simulated/pour_path.h"
 #include "device/simulated/shown_grip.h"
 
-namespace wholehand {
+namespace wholehand::device {
 
 // One task with a vessel, in the world of the right hand.
 struct SimJob {
@@ -125,4 +125,4 @@ class SimUser {
   SimCommand command_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::device

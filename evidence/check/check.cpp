@@ -135,7 +135,7 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
   CheckReport report;
   report.scene = scene.name;
   report.warnings = check_warnings(scene);
-  const Plan plan(scene, true);
+  const sweeps::Plan plan(scene, true);
   std::vector<CheckSample> samples;
   try {
     Checking checking(scene, options);

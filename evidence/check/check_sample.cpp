@@ -10,7 +10,7 @@ namespace wholehand {
 namespace {
 
 // Grips spread evenly over the plan; a step that shares no factor with the axes' lengths, so that every axis varies.
-std::uint64_t own_index(const Plan& plan, std::size_t i) {
+std::uint64_t own_index(const sweeps::Plan& plan, std::size_t i) {
   const std::uint64_t all = plan.grips();
   return all <= MOST_CHECKED_GRIPS ? i : (i * 2654435761u + 12345u) % all;
 }
@@ -50,13 +50,13 @@ Scene scene_around(const Scene& scene, std::size_t vessel, std::size_t count) {
 
 }  // namespace
 
-CheckSample check_sample(const Scene& scene, const Plan& plan, std::size_t vessel) {
+CheckSample check_sample(const Scene& scene, const sweeps::Plan& plan, std::size_t vessel) {
   CheckSample sample;
   sample.own = static_cast<std::size_t>(std::min<std::uint64_t>(plan.grips(), MOST_CHECKED_GRIPS));
   for (std::size_t i = 0; i < sample.own; ++i) sample.grips.push_back(plan.grip(vessel, own_index(plan, i)));
   if (sample.own >= FEWEST_CHECKED_GRIPS) return sample;
   const std::size_t missing = FEWEST_CHECKED_GRIPS - sample.own;
-  const Plan between(scene_around(scene, vessel, missing), true);
+  const sweeps::Plan between(scene_around(scene, vessel, missing), true);
   sample.grips.resize(FEWEST_CHECKED_GRIPS);
   between.fill(vessel, 0, missing, sample.grips.data() + sample.own);
   return sample;

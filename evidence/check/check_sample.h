@@ -22,6 +22,6 @@ struct CheckSample {
 // value is widened to both sides: height by 5 % of the vessel's height (a height_fraction stays within 0..1), azimuth and roll by 15 degrees,
 // obliquity by 5 (within -90..90), offset by 5 % of the hand's 100 mm times its scale, hand_scale by 5 % (within float's domain, and not upwards if a
 // vessel is a mesh, whose lattice is made for the scene's hands).
-CheckSample check_sample(const Scene& scene, const Plan& plan, std::size_t vessel);
+CheckSample check_sample(const Scene& scene, const sweeps::Plan& plan, std::size_t vessel);
 
 }  // namespace wholehand

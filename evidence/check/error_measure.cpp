@@ -27,7 +27,7 @@ std::vector<std::vector<GripInput>> random_error_grips(const Scene& scene, std::
   sampled.grips.sampling = Sampling::sobol;
   sampled.grips.count = count;
   sampled.grips.seed = seed;
-  const Plan plan(sampled, true);
+  const sweeps::Plan plan(sampled, true);
   std::vector<std::vector<GripInput>> grips(scene.vessels.size(), std::vector<GripInput>(count));
   const auto part = [](const Axis& axis, double value, double parts) {
     const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
@@ -190,7 +190,7 @@ ErrorRow ErrorMeasure::compared_row(const ErrorVariant& variant) {
 ErrorMeasure::Timed ErrorMeasure::warmed(const ErrorVariant& variant, ErrorRow& row) {
   const Scene& scene = variant.scene ? *variant.scene : scene_;
   Timed timed;
-  timed.opened = open(variant, make_field_set(variable_fields(choose_variables(scene)), scene));
+  timed.opened = open(variant, make_field_set(sweeps::variable_fields(sweeps::choose_variables(scene)), scene));
   timed.variant = variant;
   row.memory_bytes = timed.opened.table_bytes + timed.opened.grip_bytes * options_.grips;
   timed.count = options_.grips;

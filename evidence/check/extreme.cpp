@@ -31,7 +31,7 @@ std::string line_after(const Scene& scene, const std::string& head) {
   throw usage_error(fmt::format("{}: lacks the line '{}..', which every extreme scene has", scene.file, head));
 }
 
-std::vector<GripInput> spread_grips(const Plan& plan, std::size_t vessel, std::size_t most) {
+std::vector<GripInput> spread_grips(const sweeps::Plan& plan, std::size_t vessel, std::size_t most) {
   const std::uint64_t all = plan.grips(), count = std::min<std::uint64_t>(all, most);
   std::vector<GripInput> grips;
   for (std::uint64_t i = 0; i < count; ++i) grips.push_back(plan.grip(vessel, count == all ? i : (i * 2654435761u) % all));
@@ -183,7 +183,7 @@ ExtremeCase extreme_case(const Scene& scene) {
 std::vector<ExtremeRow> evaluate_extreme(const ExtremeCase& extreme, const ExtremeOptions& options) {
   const Scene& scene = extreme.scene;
   const FieldSet fields = all_fields(scene);
-  const Plan plan(scene, true);
+  const sweeps::Plan plan(scene, true);
   const std::shared_ptr<const Evaluator> full = make_core_evaluator(scene), single = make_core_float_evaluator(scene);
   std::vector<std::vector<GripInput>> grips;
   std::vector<GatheredPlanes> truth;

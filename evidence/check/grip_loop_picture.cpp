@@ -25,21 +25,22 @@ double k_open_at(double row) { return K_OPEN_LEAST * std::pow(K_OPEN_RATIO, row 
 
 // By GripOutcome.
 std::vector<PlotLayer> outcome_layers() {
-  const std::array<std::string, GRIP_OUTCOMES> colors{tint(okabe_ito::SKY_BLUE, 0.5), tint(okabe_ito::BLUE, 0.65),
-                                                      tint(okabe_ito::ORANGE, 0.85), tint(okabe_ito::BLACK, 0.26), "#7a1f1f"};
-  std::vector<PlotLayer> layers(GRIP_OUTCOMES);
+  const std::array<std::string, device::GRIP_OUTCOMES> colors{tint(okabe_ito::SKY_BLUE, 0.5), tint(okabe_ito::BLUE, 0.65),
+                                                              tint(okabe_ito::ORANGE, 0.85), tint(okabe_ito::BLACK, 0.26),
+                                                              "#7a1f1f"};
+  std::vector<PlotLayer> layers(device::GRIP_OUTCOMES);
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    layers[k].label = GRIP_OUTCOME_NAMES[k];
+    layers[k].label = device::GRIP_OUTCOME_NAMES[k];
     layers[k].color = colors[k];
     layers[k].is_area = true;
   }
   for (int column = 0; column < REACTIONS; ++column) {
-    GripLoop loop;
+    device::GripLoop loop;
     loop.reaction = reaction_at(column);
     const double left = std::max(0.0, (column - 0.5) * REACTION_STEP), right = (column + 0.5) * REACTION_STEP;
     for (int k = 0; k < STIFFNESSES; ++k) {
       loop.k_open = k_open_at(k);
-      std::vector<PlotBox>& boxes = layers[static_cast<std::size_t>(hold_and_tilt(loop).outcome)].boxes;
+      std::vector<PlotBox>& boxes = layers[static_cast<std::size_t>(device::hold_and_tilt(loop).outcome)].boxes;
       const double bottom = k_open_at(k - 0.5), top = k_open_at(k + 0.5);
       const bool goes_on = !boxes.empty() && boxes.back().left == left && boxes.back().top == bottom;
       if (goes_on) {
@@ -73,13 +74,13 @@ std::string grip_loop_picture() {
   plot.layers = outcome_layers();
   PlotLayer& user = plot.layers.emplace_back(theory_layer("user, by theory", "#1f4e79", ""));
   for (int column = 0; column < REACTIONS; ++column) {
-    GripLoop loop;
+    device::GripLoop loop;
     loop.reaction = reaction_at(column);
-    const double limit = reaction_k_open(loop);
+    const double limit = device::reaction_k_open(loop);
     if (std::isfinite(limit)) user.points.push_back({loop.reaction, limit});
   }
   PlotLayer& sampling = plot.layers.emplace_back(theory_layer("sampling, by theory", "#404040", "5 3"));
-  const double sampled = sampled_k_open(GripLoop{});
+  const double sampled = device::sampled_k_open(device::GripLoop{});
   sampling.points = {{plot.x.low, sampled}, {plot.x.high, sampled}};
   const double above = legend_height(plot.layers, 2, RIGHT) + UNDER_LEGEND;
   MarkupWriter svg;

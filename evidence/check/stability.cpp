@@ -46,11 +46,11 @@ struct WallFindings {
   std::size_t points = 0, passive = 0, passive_unsettled = 0;
   std::size_t by_chance = 0, chance_as_theory = 0;  // devices by chance; whose limit is within 1 % of the linear one
 };
-WallFindings look_at(const std::vector<WallSheet>& sheets) {
+WallFindings look_at(const std::vector<device::WallSheet>& sheets) {
   WallFindings found;
-  for (const WallSheet& sheet : sheets)
-    for (const WallColumn& column : sheet.columns)
-      for (const WallPoint& point : column.points) {
+  for (const device::WallSheet& sheet : sheets)
+    for (const device::WallColumn& column : sheet.columns)
+      for (const device::WallPoint& point : column.points) {
         ++found.points;
         // the rule is for a reading that is exact or blurred by less than friction holds, and for no delay
         const bool is_passive = point.integrator == LOOP_EXACT && point.device.delay == 0 && point.device.encoder_step == 0 &&
@@ -59,9 +59,9 @@ WallFindings look_at(const std::vector<WallSheet>& sheets) {
         ++found.passive;
         found.passive_unsettled += point.settles() ? 0 : 1;
       }
-  for (const WallSheet& sheet : sheets) {
+  for (const device::WallSheet& sheet : sheets) {
     if (sheet.name != "chance") continue;
-    for (const WallColumn& column : sheet.columns) {
+    for (const device::WallColumn& column : sheet.columns) {
       ++found.by_chance;
       found.chance_as_theory += column.points.front().settles() && !column.points.back().settles() ? 1 : 0;
     }
@@ -69,7 +69,7 @@ WallFindings look_at(const std::vector<WallSheet>& sheets) {
   return found;
 }
 
-void write_walls(std::string& out, const std::vector<WallSheet>& sheets, const WallFindings& found) {
+void write_walls(std::string& out, const std::vector<device::WallSheet>& sheets, const WallFindings& found) {
   append_formatted(
       out,
       "\n## The rendered wall\n\n"
@@ -84,35 +84,36 @@ void write_walls(std::string& out, const std::vector<WallSheet>& sheets, const W
   for (const double rate : RATES) append_formatted(out, " {} Hz |", plain_text(rate));
   append_formatted(out, "\n|---|");
   for (std::size_t k = 0; k < RATES.size(); ++k) append_formatted(out, "---|");
-  for (const NamedDevice& named : wall_devices()) {
+  for (const device::NamedDevice& named : device::wall_devices()) {
     append_formatted(out, "\n| {} |", named.name);
     for (const double rate : RATES) {
-      WallDevice device;
+      device::WallDevice device;
       device.mass = named.mass;
       device.damping = named.damping;
       device.rate = rate;
-      const WallLimits limits = wall_limits(device);
+      const device::WallLimits limits = device::wall_limits(device);
       append_formatted(out, " {} / {} / {} |", newtons_per_meter(limits.simulated), newtons_per_meter(limits.linear),
                        newtons_per_meter(limits.passive));
     }
   }
-  append_formatted(out, "\n\nThe linear limit over the delay, at 1 kHz, for {}:", wall_devices().front().name);
-  WallDevice device;
-  device.mass = wall_devices().front().mass;
-  device.damping = wall_devices().front().damping;
+  append_formatted(out, "\n\nThe linear limit over the delay, at 1 kHz, for {}:", device::wall_devices().front().name);
+  device::WallDevice device;
+  device.mass = device::wall_devices().front().mass;
+  device.damping = device::wall_devices().front().damping;
   for (int delay = 0; delay <= LOOP_DELAYS; ++delay) {
     device.delay = delay;
-    append_formatted(out, "{} {} samples {} N/m", delay == 0 ? "" : ",", delay, newtons_per_meter(wall_theory(device).linear));
+    append_formatted(out, "{} {} samples {} N/m", delay == 0 ? "" : ",", delay,
+                     newtons_per_meter(device::wall_theory(device).linear));
   }
   append_formatted(out, ".\n");
-  for (const WallSheet& sheet : sheets) {
+  for (const device::WallSheet& sheet : sheets) {
     if (sheet.name != "integrator") continue;
     append_formatted(out, "\nIf an integrator replaces the exact motion between samples, the limit moves (same device, 1 kHz):");
     const char* separator = "";
-    for (const WallColumn& column : sheet.columns) {
-      const WallPoint& first = column.points.front();
+    for (const device::WallColumn& column : sheet.columns) {
+      const device::WallPoint& first = column.points.front();
       if (first.device.mass != device.mass || first.device.damping != device.damping) continue;
-      const std::string limit = newtons_per_meter(integrator_limit(first.device, first.integrator, first.substeps));
+      const std::string limit = newtons_per_meter(device::integrator_limit(first.device, first.integrator, first.substeps));
       if (first.integrator == LOOP_EXACT) {
         append_formatted(out, "{} exact {}", separator, limit);
       } else {
@@ -126,8 +127,8 @@ void write_walls(std::string& out, const std::vector<WallSheet>& sheets, const W
   }
 }
 
-void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
-  const GripLoop usual;
+void write_grips(std::string& out, const std::vector<device::GripLoopRow>& rows) {
+  const device::GripLoop usual;
   append_formatted(
       out,
       "\n## The held grip\n\n"
@@ -143,11 +144,12 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
   for (const auto& [mass, damping] : {std::pair{0.05, 0.5}, {0.02, 0.2}, {0.1, 1.0}, {0.1, 3.0}}) {
     append_formatted(out, "\n| {:g} g, {:g} N s/m |", mass * 1e3, damping);
     for (const double rate : RATES) {
-      GripLoop loop;
+      device::GripLoop loop;
       loop.device_mass = mass;
       loop.device_damping = damping;
       loop.rate = rate;
-      append_formatted(out, " {} / {} |", newtons_per_meter(largest_k_open(loop)), newtons_per_meter(sampled_k_open(loop)));
+      append_formatted(out, " {} / {} |", newtons_per_meter(device::largest_k_open(loop)),
+                       newtons_per_meter(device::sampled_k_open(loop)));
     }
   }
   append_formatted(
@@ -157,15 +159,15 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
       "even softer springs still oscillate at the end):");
   const char* separator = "";
   for (const double reaction : {0.2, 0.3, 0.4, 0.6}) {
-    GripLoop loop;
+    device::GripLoop loop;
     loop.reaction = reaction;
-    append_formatted(out, "{} {:g} ms {} / {}", separator, reaction * 1e3, newtons_per_meter(largest_k_open(loop)),
-                     newtons_per_meter(reaction_k_open(loop)));
+    append_formatted(out, "{} {:g} ms {} / {}", separator, reaction * 1e3, newtons_per_meter(device::largest_k_open(loop)),
+                     newtons_per_meter(device::reaction_k_open(loop)));
     separator = ",";
   }
-  std::array<std::size_t, GRIP_OUTCOMES> counts{};
+  std::array<std::size_t, device::GRIP_OUTCOMES> counts{};
   std::size_t all = 0;
-  for (const GripLoopRow& row : rows) {
+  for (const device::GripLoopRow& row : rows) {
     if (row.varied != "products") continue;
     ++counts[static_cast<std::size_t>(row.result.outcome)];
     ++all;
@@ -173,10 +175,10 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
   append_formatted(out, ".\n\nThe outcomes of {} sessions that vary F_base, F_range, k_open, reaction, finger and tilt speed:",
                    readable_number(all));
   for (std::size_t k = 0; k < counts.size(); ++k) {
-    append_formatted(out, "{} {} {:.1f} %", k == 0 ? "" : ",", GRIP_OUTCOME_NAMES[k],
+    append_formatted(out, "{} {} {:.1f} %", k == 0 ? "" : ",", device::GRIP_OUTCOME_NAMES[k],
                      100.0 * static_cast<double>(counts[k]) / static_cast<double>(std::max<std::size_t>(all, 1)));
   }
-  const GripLoopResult result = hold_and_tilt(usual);
+  const device::GripLoopResult result = device::hold_and_tilt(usual);
   append_formatted(out,
                    ". With the default values the grip settles {:.0f} ms after the grasp and opens by {:.2f} mm in the tilt.\n",
                    result.response_time * 1e3, result.opened * 1e3);
@@ -190,7 +192,7 @@ void write_gains(std::string& out) {
       "damping of 1 N s/m. k_open is from the simulation with the lightest finger and users who react after 60 to 90 "
       "ms.\n\n| rate | K | k_open |\n|---|---|---|\n");
   for (const double rate : RATES) {
-    const GainLimits limits = gain_limits(rate, 1);
+    const device::GainLimits limits = device::gain_limits(rate, 1);
     append_formatted(out, "| {} Hz | {} | {} |\n", plain_text(rate), newtons_per_meter(limits.stiffness),
                      newtons_per_meter(limits.k_open));
   }
@@ -246,20 +248,20 @@ void write_extremes(std::string& out, const std::vector<ExtremeCase>& cases, con
 
 // What a run finds.
 struct Stability {
-  std::vector<WallSheet> sheets;
+  std::vector<device::WallSheet> sheets;
   double wall_seconds = 0;
   WallFindings walls;
-  std::vector<GripLoopRow> grips;
+  std::vector<device::GripLoopRow> grips;
   std::vector<ExtremeRow> extremes;
 };
 
 // False: interrupted.
 bool compute_stability(const StabilityOptions& options, InterruptGuard& interrupt, Stability& stability) {
   show_status("limits by theory");
-  stability.sheets = wall_sheets(options.quick, options.seed);
+  stability.sheets = device::wall_sheets(options.quick, options.seed);
   const double start = monotonic_now();
-  const std::size_t points = count_points(stability.sheets);
-  const bool walls_done = run_walls(stability.sheets, [&](std::size_t done) {
+  const std::size_t points = device::count_points(stability.sheets);
+  const bool walls_done = device::run_walls(stability.sheets, [&](std::size_t done) {
     show_status(fmt::format("walls {} of {}", done, points));
     return !interrupt.flag();
   });
@@ -267,7 +269,7 @@ bool compute_stability(const StabilityOptions& options, InterruptGuard& interrup
   stability.wall_seconds = monotonic_now() - start;
   stability.walls = look_at(stability.sheets);
   show_status("held grips");
-  stability.grips = grip_loop_rows(options.quick);
+  stability.grips = device::grip_loop_rows(options.quick);
   ExtremeOptions extreme_options;
   extreme_options.on = options.on;
   if (options.quick) extreme_options.grips = 40;
@@ -300,13 +302,13 @@ void write_stability_tables(const StabilityOptions& options, const Stability& st
   const auto path = [&options](const char* name) { return options.folder + "/" + name; };
   const std::string stamp = fmt::format("{},{}", version(), options.seed);
   const std::string on_core = fmt::format("core,{},{}", csv_text(core_info(Precision::full, 1).driver), stamp);
-  write_whole_file(path("wall.csv"), wall_csv(stability.sheets), false);
-  write_whole_file(path("wall_limits.csv"), wall_limits_csv(stability.sheets, on_core), false);
-  write_whole_file(path("grip_loop.csv"), grip_loop_csv(stability.grips, on_core), false);
+  write_whole_file(path("wall.csv"), device::wall_csv(stability.sheets), false);
+  write_whole_file(path("wall_limits.csv"), device::wall_limits_csv(stability.sheets, on_core), false);
+  write_whole_file(path("grip_loop.csv"), device::grip_loop_csv(stability.grips, on_core), false);
   if (!options.extremes.empty()) write_whole_file(path("extreme.csv"), extreme_csv(stability.extremes), false);
 }
 
-void draw_stability_pictures(const std::string& folder, const std::vector<WallSheet>& sheets) {
+void draw_stability_pictures(const std::string& folder, const std::vector<device::WallSheet>& sheets) {
   const std::vector<PictureFile> pictures{{folder + "/grip_loop.svg", grip_loop_picture()},
                                           {folder + "/wall_integrators.svg", integrator_picture(sheets)},
                                           {folder + "/wall.svg", wall_picture(sheets)}};

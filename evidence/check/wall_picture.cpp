@@ -15,25 +15,25 @@ namespace {
 
 constexpr const char *LIMIT_COLOR = "#1f4e79", *RULE_COLOR = "#b03a00";
 
-const WallSheet& sheet_of(const std::vector<WallSheet>& sheets, const std::string& name) {
-  return *std::find_if(sheets.begin(), sheets.end(), [&](const WallSheet& sheet) { return sheet.name == name; });
+const device::WallSheet& sheet_of(const std::vector<device::WallSheet>& sheets, const std::string& name) {
+  return *std::find_if(sheets.begin(), sheets.end(), [&](const device::WallSheet& sheet) { return sheet.name == name; });
 }
 
 // One panel: what settles and what does not as areas, the limits as lines.
 struct Panel {
   std::string title, axis;
   bool is_logarithmic = true;
-  std::vector<const WallColumn*> columns;
+  std::vector<const device::WallColumn*> columns;
   std::vector<double> at;  // of each column, on the panel's axis, ascending
 };
 
 // The columns of a sheet that are in it.
 template <class IsIn, class At>
-Panel panel_of(const WallSheet& sheet, const std::string& title, const std::string& axis, bool is_logarithmic, const IsIn& is_in,
-               const At& at) {
+Panel panel_of(const device::WallSheet& sheet, const std::string& title, const std::string& axis, bool is_logarithmic,
+               const IsIn& is_in, const At& at) {
   Panel panel{title, axis, is_logarithmic, {}, {}};
-  for (const WallColumn& column : sheet.columns) {
-    const WallDevice& device = column.points.front().device;
+  for (const device::WallColumn& column : sheet.columns) {
+    const device::WallDevice& device = column.points.front().device;
     if (!is_in(device)) continue;
     panel.columns.push_back(&column);
     panel.at.push_back(at(column.points.front()));
@@ -55,9 +55,9 @@ std::vector<double> edges_of(std::vector<double> at, bool is_logarithmic) {
 }
 
 // Boxes of the points of one column that settle, or that do not: a run of neighbors is one box.
-void add_runs(std::vector<PlotBox>& boxes, const WallColumn& column, bool settled, double left, double right) {
+void add_runs(std::vector<PlotBox>& boxes, const device::WallColumn& column, bool settled, double left, double right) {
   std::vector<double> stiffness;
-  for (const WallPoint& point : column.points) stiffness.push_back(point.stiffness);
+  for (const device::WallPoint& point : column.points) stiffness.push_back(point.stiffness);
   const std::vector<double> edges = edges_of(stiffness, true);
   for (std::size_t k = 0; k < column.points.size();) {
     std::size_t end = k;
@@ -118,7 +118,7 @@ Plot panel_plot(const Panel& panel, Rule rule) {
     if (drawn == Rule::none && plot.layers.size() > 2) continue;
     PlotLayer& layer = plot.layers.emplace_back(rule_layer(drawn));
     for (std::size_t c = 0; c < panel.columns.size(); ++c) {
-      const WallLimits& theory = panel.columns[c]->theory;
+      const device::WallLimits& theory = panel.columns[c]->theory;
       const double limit = drawn == Rule::none ? theory.linear : drawn == Rule::friction ? theory.coulomb : theory.passive;
       if (limit > 0 && std::isfinite(limit)) layer.points.push_back({panel.at[c], limit});
     }
@@ -127,43 +127,43 @@ Plot panel_plot(const Panel& panel, Rule rule) {
 }
 
 // Devices of the first kind that is named.
-bool is_named(const WallDevice& d) {
-  const NamedDevice& named = wall_devices().front();
+bool is_named(const device::WallDevice& d) {
+  const device::NamedDevice& named = device::wall_devices().front();
   return d.mass == named.mass && d.damping == named.damping;
 }
 
-bool is_kilohertz(const WallDevice& d) { return std::abs(d.rate - 1000) < 0.5; }
+bool is_kilohertz(const device::WallDevice& d) { return std::abs(d.rate - 1000) < 0.5; }
 
 // Rates, damping, delay and encoder.
-std::vector<Plot> limit_plots(const std::vector<WallSheet>& sheets) {
-  const WallSheet& map = sheet_of(sheets, "stiffness_damping_rate");
+std::vector<Plot> limit_plots(const std::vector<device::WallSheet>& sheets) {
+  const device::WallSheet& map = sheet_of(sheets, "stiffness_damping_rate");
   std::vector<Plot> plots;
   plots.push_back(panel_plot(panel_of(
                                  map, "no wall damping", "rate (Hz)", true,
-                                 [](const WallDevice& d) { return is_named(d) && std::abs(d.wall_damping) < 1e-9; },
-                                 [](const WallPoint& p) { return p.device.rate; }),
+                                 [](const device::WallDevice& d) { return is_named(d) && std::abs(d.wall_damping) < 1e-9; },
+                                 [](const device::WallPoint& p) { return p.device.rate; }),
                              Rule::passive));
   plots.back().x.ticks = {250, 500, 1000, 2000, 4000, 8000};
   plots.push_back(panel_plot(
       panel_of(
-          map, "1 kHz", "wall damping B (N s/m)", false, [](const WallDevice& d) { return is_named(d) && is_kilohertz(d); },
-          [](const WallPoint& p) { return p.device.wall_damping; }),
+          map, "1 kHz", "wall damping B (N s/m)", false, [](const device::WallDevice& d) { return is_named(d) && is_kilohertz(d); },
+          [](const device::WallPoint& p) { return p.device.wall_damping; }),
       Rule::passive));
-  plots.push_back(panel_plot(
-      panel_of(
-          sheet_of(sheets, "delay"), "1 kHz, no wall damping", "delay (samples)", false,
-          [](const WallDevice& d) { return is_named(d) && is_kilohertz(d); }, [](const WallPoint& p) { return p.device.delay; }),
-      Rule::none));
+  plots.push_back(panel_plot(panel_of(
+                                 sheet_of(sheets, "delay"), "1 kHz, no wall damping", "delay (samples)", false,
+                                 [](const device::WallDevice& d) { return is_named(d) && is_kilohertz(d); },
+                                 [](const device::WallPoint& p) { return p.device.delay; }),
+                             Rule::none));
   plots.push_back(panel_plot(panel_of(
                                  sheet_of(sheets, "encoder"), "1 kHz, friction f_c = 0.2 N", "encoder step D (\u00b5m)", true,
-                                 [](const WallDevice& d) { return is_named(d) && d.coulomb == 0.2; },
-                                 [](const WallPoint& p) { return p.device.encoder_step * 1e6; }),
+                                 [](const device::WallDevice& d) { return is_named(d) && d.coulomb == 0.2; },
+                                 [](const device::WallPoint& p) { return p.device.encoder_step * 1e6; }),
                              Rule::friction));
   return plots;
 }
 
 // The largest stiffness over the sub-steps of one integrator; the exact one has no sub-steps, and is a level line.
-PlotLayer integrator_layer(const WallSheet& sheet, int integrator) {
+PlotLayer integrator_layer(const device::WallSheet& sheet, int integrator) {
   PlotLayer layer;
   layer.label = integrator == LOOP_EULER ? "explicit Euler" : integrator == LOOP_SEMI_IMPLICIT ? "semi-implicit Euler" : "exact";
   layer.color = integrator == LOOP_EULER ? RULE_COLOR : integrator == LOOP_SEMI_IMPLICIT ? LIMIT_COLOR : "#404040";
@@ -174,10 +174,10 @@ PlotLayer integrator_layer(const WallSheet& sheet, int integrator) {
   } else {
     layer.mark = integrator == LOOP_EULER ? MarkShape::disc : MarkShape::square;
   }
-  for (const WallColumn& column : sheet.columns) {
-    const WallPoint& first = column.points.front();
+  for (const device::WallColumn& column : sheet.columns) {
+    const device::WallPoint& first = column.points.front();
     if (first.integrator != integrator || !is_named(first.device)) continue;
-    const double limit = integrator_limit(first.device, integrator, first.substeps);
+    const double limit = device::integrator_limit(first.device, integrator, first.substeps);
     if (integrator == LOOP_EXACT) {
       layer.points = {{1, limit}, {16, limit}};
     } else {
@@ -189,7 +189,7 @@ PlotLayer integrator_layer(const WallSheet& sheet, int integrator) {
 
 }  // namespace
 
-std::string wall_picture(const std::vector<WallSheet>& sheets) {
+std::string wall_picture(const std::vector<device::WallSheet>& sheets) {
   constexpr double LEFT = 46, WIDTH = 300, COLUMN = 370, HEIGHT = 190, ROW = 268, ABOVE = 62;  // units
   const std::vector<Plot> plots = limit_plots(sheets);
   const double width = LEFT + COLUMN + WIDTH + 8;
@@ -198,8 +198,8 @@ std::string wall_picture(const std::vector<WallSheet>& sheets) {
       "with the limits of theory as lines.",
       plots[0].x.label, plots[1].x.label, plots[2].x.label, plots[3].x.label);
   MarkupWriter svg;
-  const double top = open_picture(svg, {std::string("A rendered wall on a device of ") + wall_devices().front().name, description,
-                                        width, ABOVE + 2 * ROW - 34, 1.35});
+  const double top = open_picture(svg, {std::string("A rendered wall on a device of ") + device::wall_devices().front().name,
+                                        description, width, ABOVE + 2 * ROW - 34, 1.35});
   std::vector<PlotLayer> legend{area_layer(true), area_layer(false)};
   for (const Rule rule : {Rule::none, Rule::passive, Rule::friction}) legend.push_back(rule_layer(rule));
   put_legend(svg, legend, 2, top + CHART_LETTER, width);
@@ -210,7 +210,7 @@ std::string wall_picture(const std::vector<WallSheet>& sheets) {
   return svg.close().written();
 }
 
-std::string integrator_picture(const std::vector<WallSheet>& sheets) {
+std::string integrator_picture(const std::vector<device::WallSheet>& sheets) {
   constexpr double LEFT = 46, RIGHT = 472, HEIGHT = 250, UNDER_LEGEND = 30;  // units
   Plot plot;
   plot.x = {"sub-steps of a sample", 0.8, 20, true};
@@ -227,7 +227,7 @@ std::string integrator_picture(const std::vector<WallSheet>& sheets) {
   const double above = legend_height(plot.layers, 2, RIGHT) + UNDER_LEGEND;
   MarkupWriter svg;
   const double top =
-      open_picture(svg, {fmt::format("What an integrator makes of the limit: {}, 1 kHz", wall_devices().front().name),
+      open_picture(svg, {fmt::format("What an integrator makes of the limit: {}, 1 kHz", device::wall_devices().front().name),
                          "Largest stiffness of a wall that settles, over the sub-steps that an integrator takes in a "
                          "sample: explicit Euler, semi-implicit Euler, and the exact solution as a level line.",
                          RIGHT + 8, above + HEIGHT + 3.6 * CHART_LETTER, 1.5});

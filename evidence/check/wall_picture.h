@@ -10,7 +10,7 @@
 namespace wholehand {
 
 // Pictures as text: rates, damping, delay and encoder; and integrators.
-std::string wall_picture(const std::vector<WallSheet>& sheets);
-std::string integrator_picture(const std::vector<WallSheet>& sheets);
+std::string wall_picture(const std::vector<device::WallSheet>& sheets);
+std::string integrator_picture(const std::vector<device::WallSheet>& sheets);
 
 }  // namespace wholehand

@@ -48,13 +48,13 @@ Scene scene_of_vessel(const Scene& scene, std::size_t vessel) {
 }
 
 // Real fields that the file has as variables. Reported tilts can be judged only if the file has the forces of all states.
-std::vector<int> fields_of_file(const SweepResult& result, const Scene& scene) {
+std::vector<int> fields_of_file(const sweeps::SweepResult& result, const Scene& scene) {
   const bool has_states =
       result.find("feedback_force") && result.find("normal_force") && (has_effort(scene) || result.find("hold_force"));
   std::set<int> fields;
-  for (const Variable* variable : result.variables()) {
+  for (const sweeps::Variable* variable : result.variables()) {
     const bool is_reported_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
-    if (variable->type == NumberType::real && (has_states || !is_reported_tilt)) fields.insert(variable->field);
+    if (variable->type == sweeps::NumberType::real && (has_states || !is_reported_tilt)) fields.insert(variable->field);
   }
   std::vector<int> all(fields.begin(), fields.end());
   all.insert(all.end(), {FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_TIP_MASK, FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK});
@@ -69,7 +69,8 @@ std::vector<std::uint64_t> compared_places(const ReportSource& source, std::size
   for (std::size_t scale = 0; scale < scales; ++scale) {
     std::vector<std::uint64_t> listed;
     if (source.lists) {
-      for (const RankedCandidate& ranked : (*source.lists)[vessel * scales + scale]) listed.push_back(ranked.candidate.index);
+      for (const sweeps::RankedCandidate& ranked : (*source.lists)[vessel * scales + scale])
+        listed.push_back(ranked.candidate.index);
     } else {
       for (const Candidate& candidate : source.result.best(vessel, scale)) listed.push_back(candidate.index);
     }
@@ -84,18 +85,18 @@ GatheredPlanes planes_of_file(const ReportSource& source, std::size_t vessel, co
                               const GatheredPlanes& core, std::vector<std::string>& outcomes) {
   GatheredPlanes planes = core;
   planes.reals.resize(planes.fields.real_kept * places.size());  // what is not held is not compared
-  const SweepResult& result = source.result;
+  const sweeps::SweepResult& result = source.result;
   const std::size_t n = places.size();
-  for (const Variable* variable : result.variables()) {
-    if (variable->type != NumberType::real || !is_kept(core.fields, variable->field)) continue;
-    for (std::size_t p = 0; p < variable_planes(*variable, source.scene); ++p) {
+  for (const sweeps::Variable* variable : result.variables()) {
+    if (variable->type != sweeps::NumberType::real || !sweeps::is_kept(core.fields, variable->field)) continue;
+    for (std::size_t p = 0; p < sweeps::variable_planes(*variable, source.scene); ++p) {
       const std::vector<double> values = result.pick(*variable, vessel, p, places);
       const std::size_t plane = static_cast<std::size_t>(core.fields.plane[variable->field] + variable->plane) + p;
       std::copy(values.begin(), values.end(), planes.reals.begin() + static_cast<std::ptrdiff_t>(plane * n));
     }
   }
   const auto put = [&](const char* name, int field, std::uint32_t mask, int shift) {
-    const Variable* variable = result.find(name);
+    const sweeps::Variable* variable = result.find(name);
     if (!variable) return;
     outcomes.push_back(name);
     const std::vector<double> values = result.pick(*variable, vessel, 0, places);
@@ -107,7 +108,7 @@ GatheredPlanes planes_of_file(const ReportSource& source, std::size_t vessel, co
   };
   for (const StatusPart& part : STATUS_PARTS) put(part.variable, FIELD_STATUS, part.mask, part.shift);
   for (const char* name : WORD_VARIABLES)
-    if (const Variable* variable = result.find(name)) put(name, variable->field, ~0u, 0);
+    if (const sweeps::Variable* variable = result.find(name)) put(name, variable->field, ~0u, 0);
   return planes;
 }
 
@@ -191,10 +192,10 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
       agreement.outside += row.outside;
     }
   }
-  for (const Variable* variable : source.result.variables()) {
+  for (const sweeps::Variable* variable : source.result.variables()) {
     // a tilt has no row of its own: if all states are kept, the forces at it are compared
     const bool is_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
-    const bool is_real = variable->type == NumberType::real && is_kept(fields, variable->field) &&
+    const bool is_real = variable->type == sweeps::NumberType::real && sweeps::is_kept(fields, variable->field) &&
                          (is_tilt || is_compared_by_number(scene, field_row(variable->field)));
     if (!is_real && std::find(agreement.outcomes.begin(), agreement.outcomes.end(), variable->name) == agreement.outcomes.end())
       agreement.uncompared.emplace_back(variable->name);

@@ -31,25 +31,25 @@ constexpr double SAME_PLACE = 1e-9;  // m, rad or 1
 
 // A result in use with its scene. It has a list for each vessel and hand scale.
 struct Side {
-  Side(const char* letter, SweepResult& opened, const Scene& given)
-      : name(letter), result(opened), scene(with_heights(opened, given)), plan(scene, keeps_vectors(opened.variables())) {
+  Side(const char* letter, sweeps::SweepResult& opened, const Scene& given)
+      : name(letter), result(opened), scene(with_heights(opened, given)), plan(scene, sweeps::keeps_vectors(opened.variables())) {
     result.use(scene, plan);
-    lists = lists_of_sweep(result, scene, plan);
+    lists = sweeps::lists_of_sweep(result, scene, plan);
   }
-  static Scene with_heights(const SweepResult& result, Scene scene) {
-    set_heights(result, scene);
+  static Scene with_heights(const sweeps::SweepResult& result, Scene scene) {
+    sweeps::set_heights(result, scene);
     return scene;
   }
   double value(const char* name, std::size_t vessel, std::uint64_t grip) const {
-    const Variable* variable = result.find(name);
+    const sweeps::Variable* variable = result.find(name);
     return variable ? result.pick(*variable, vessel, 0, {grip})[0] : std::nan("");
   }
 
   const char* name;  // "A" or "B"
-  SweepResult& result;
+  sweeps::SweepResult& result;
   Scene scene;
-  Plan plan;
-  GripLists lists;
+  sweeps::Plan plan;
+  sweeps::GripLists lists;
 };
 
 struct ListedGrip {
@@ -77,7 +77,7 @@ struct VesselSums {
 
 VesselSums sums_of(const Side& side, std::size_t vessel) {
   const std::array<const char*, 5> names{"reason", "plausible", "not_held", "score", "worst_effort"};
-  std::array<const Variable*, 5> variables{};
+  std::array<const sweeps::Variable*, 5> variables{};
   for (std::size_t k = 0; k < names.size(); ++k) variables[k] = side.result.find(names[k]);
   const auto start = [&](std::size_t k) { return variables[k] ? 0 : std::nan(""); };
   const double none = std::nan("");
@@ -102,8 +102,8 @@ VesselSums sums_of(const Side& side, std::size_t vessel) {
   auto& listed = vessel_sums.listed;
   const std::size_t scales = side.plan.hand_scales();
   for (std::size_t list = vessel * scales; list < (vessel + 1) * scales; ++list) {
-    const std::vector<RobustScore> robust = side.result.robust(vessel, list % scales);
-    for (const RankedCandidate& ranked : side.lists[list]) {
+    const std::vector<sweeps::RobustScore> robust = side.result.robust(vessel, list % scales);
+    for (const sweeps::RankedCandidate& ranked : side.lists[list]) {
       listed.push_back({ranked.rank, ranked.candidate, side.plan.grip(vessel, ranked.candidate.index)});
       if (ranked.rank <= robust.size()) listed.back().robust = robust[ranked.rank - 1].low;
     }
@@ -215,7 +215,7 @@ std::vector<std::string> changed_lines(const std::string& a, const std::string& 
 
 // How both judge: the differences, and first whether scores follow one rule. Returns whether anything differs.
 bool add_judging(const Side& a, const Side& b, ComparePart& part) {
-  const SweepOrigin &from_a = a.result.origin(), &from_b = b.result.origin();
+  const sweeps::SweepOrigin &from_a = a.result.origin(), &from_b = b.result.origin();
   part.changes = changed_lines(from_a.scene, from_b.scene);
   CompareTable table{"How they judge", {"what", "A", "B"}, {}};
   std::vector<std::string> rules;
@@ -225,11 +225,11 @@ bool add_judging(const Side& a, const Side& b, ComparePart& part) {
     table.rows.push_back({name, std::move(text_a), std::move(text_b)});
     if (is_rule) rules.emplace_back(name);
   };
-  const auto meshes = [](const SweepOrigin& from) { return from.mesh_keys.empty() ? "none" : "files"; };
-  const auto precision = [](const SweepOrigin& from) { return from.precision == Precision::single ? "float" : "double"; };
-  const auto rules_a = scene_rules(a.scene), rules_b = scene_rules(b.scene);
-  const auto is_shared = shared_rules(a.scene, b.scene);
-  for (std::size_t k = 0; k < RULE_COUNT; ++k) add(rules_a[k].name, is_shared[k], rules_a[k].text, rules_b[k].text, true);
+  const auto meshes = [](const sweeps::SweepOrigin& from) { return from.mesh_keys.empty() ? "none" : "files"; };
+  const auto precision = [](const sweeps::SweepOrigin& from) { return from.precision == Precision::single ? "float" : "double"; };
+  const auto rules_a = sweeps::scene_rules(a.scene), rules_b = sweeps::scene_rules(b.scene);
+  const auto is_shared = sweeps::shared_rules(a.scene, b.scene);
+  for (std::size_t k = 0; k < sweeps::RULE_COUNT; ++k) add(rules_a[k].name, is_shared[k], rules_a[k].text, rules_b[k].text, true);
   add("meshes", from_a.mesh_keys == from_b.mesh_keys, meshes(from_a), meshes(from_b), false);
   add("device", from_a.device == from_b.device, from_a.device, from_b.device, false);
   add("driver", from_a.driver == from_b.driver, from_a.driver, from_b.driver, false);
@@ -237,7 +237,7 @@ bool add_judging(const Side& a, const Side& b, ComparePart& part) {
   add("version", from_a.version == from_b.version, from_a.version, from_b.version, false);
   if (!rules.empty()) part.sentences.push_back(fmt::format("Scores are not of one rule: other {}.", joined(rules, ", other ")));
   if (table.rows.empty()) {
-    std::string names = rule_names();
+    std::string names = sweeps::rule_names();
     names[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(names[0])));
     part.sentences.push_back(names + ", device, precision and version are the same.");
   } else {
@@ -334,7 +334,8 @@ std::string table_text(const CompareTable& table, bool is_of_words) {
 
 }  // namespace
 
-std::vector<ComparePart> compare_results(SweepResult& a, const Scene& scene_a, SweepResult& b, const Scene& scene_b) {
+std::vector<ComparePart> compare_results(sweeps::SweepResult& a, const Scene& scene_a, sweeps::SweepResult& b,
+                                         const Scene& scene_b) {
   const Side side_a("A", a, scene_a), side_b("B", b, scene_b);
   std::vector<ComparePart> parts(1);
   parts[0].title = fmt::format("A: {}, B: {}", a.path().substr(a.path().rfind('/') + 1), b.path().substr(b.path().rfind('/') + 1));

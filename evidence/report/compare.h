@@ -26,7 +26,8 @@ struct ComparePart {
 
 // Goes through both files in blocks, so that memory does not depend on the number of grips. Each result's text describes its scene; the meshes need
 // not exist. Throws Error (usage) if a file is damaged or does not fit its scene.
-std::vector<ComparePart> compare_results(SweepResult& a, const Scene& scene_a, SweepResult& b, const Scene& scene_b);
+std::vector<ComparePart> compare_results(sweeps::SweepResult& a, const Scene& scene_a, sweeps::SweepResult& b,
+                                         const Scene& scene_b);
 
 // Lines for a terminal.
 std::string comparison_text(const std::vector<ComparePart>& parts);

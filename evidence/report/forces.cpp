@@ -37,7 +37,7 @@ LineChart force_chart(const ReportSource& source, std::size_t vessel, const std:
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const FillForces& fill = forces[shown[k]];
     LineChart::Line line;
-    line.label = fill_text(scene, vessel, fill.fill);
+    line.label = sweeps::fill_text(scene, vessel, fill.fill);
     line.y = fill.*member;
     line.shade = shown.size() > 1 ? static_cast<double>(k) / static_cast<double>(shown.size() - 1) : 0.3;
     if (shown[k] < pouring.size() && std::isfinite(pouring[shown[k]])) line.marked_x = degrees(pouring[shown[k]]);
@@ -109,7 +109,8 @@ void write_force_table(MarkupWriter& html, const Scene& scene, std::size_t vesse
   html.open("details").element("summary", "The same as numbers");
   std::vector<std::string> columns{"tilt (°)"};
   for (const char* force : {"feedback", "hold"})
-    for (const FillForces& fill : forces) columns.push_back(fmt::format("{}, {} (N)", force, fill_text(scene, vessel, fill.fill)));
+    for (const FillForces& fill : forces)
+      columns.push_back(fmt::format("{}, {} (N)", force, sweeps::fill_text(scene, vessel, fill.fill)));
   HtmlTable table(html, fmt::format("Feedback and hold force of the best grip of {}", name), columns);
   for (std::size_t t = 0; t < scene.tilts.size(); ++t) {
     std::vector<std::string> cells{shown_number(degrees(scene.tilts[t]), 1)};
@@ -132,13 +133,14 @@ std::vector<std::size_t> shown_fills(std::size_t count) {
 
 std::vector<FillForces> forces_of(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
   std::vector<FillForces> forces;
-  const StateAxes axes = scene_axes(source.scene, vessel);
-  const GripFindings answer = core_grip_methods(source.scene, source.core, "core").answer(vessel, grip, axes);
+  const sweeps::StateAxes axes = sweeps::scene_axes(source.scene, vessel);
+  const sweeps::GripFindings answer = sweeps::core_grip_methods(source.scene, source.core, "core").answer(vessel, grip, axes);
   if (answer.states.empty()) return forces;
-  const double strength =
-      !source.scene.strength
-          ? source.scene.force.grip_strength
-          : Holding(source.scene, *source.core, vessel, answer.result, pour_direction(source.scene, grip)).strength().weaker_tip();
+  const double strength = !source.scene.strength ? source.scene.force.grip_strength
+                                                 : sweeps::Holding(source.scene, *source.core, vessel, answer.result,
+                                                                   sweeps::pour_direction(source.scene, grip))
+                                                       .strength()
+                                                       .weaker_tip();
   for (std::size_t f = 0; f < axes.fills.size(); ++f) {
     FillForces fill{axes.fills[f], strength, {}, {}};
     for (std::size_t t = 0; t < axes.tilts.size(); ++t) {
@@ -215,7 +217,7 @@ void write_pouring(MarkupWriter& html, const ReportSource& source, std::size_t v
                   {"fill", "liquid (mL)", "pours from (°)"});
   for (std::size_t f = 0; f < tilts.size(); ++f) {
     const double fill = vessel_fills(scene, scene.vessels[vessel])[f];
-    table.row({share_text(scene, fill), shown_number(capacity * fill * 1e6, 0),
+    table.row({sweeps::share_text(scene, fill), shown_number(capacity * fill * 1e6, 0),
                std::isfinite(tilts[f]) ? shown_number(degrees(tilts[f]), 1) : "nothing to pour"});
   }
   table.end();

@@ -46,18 +46,19 @@ std::string touching_text(const GripResult& result) {
   return text;
 }
 
-bool is_refined(const BestGrip& grip) { return !std::isnan(grip.refined_score); }
+bool is_refined(const sweeps::BestGrip& grip) { return !std::isnan(grip.refined_score); }
 bool has_refined(const ReportedGrips& best) { return std::any_of(best.grips.begin(), best.grips.end(), is_refined); }
 bool has_robust(const ReportedGrips& best) {
-  return std::any_of(best.grips.begin(), best.grips.end(), [](const BestGrip& grip) { return !std::isnan(grip.robust.mean); });
+  return std::any_of(best.grips.begin(), best.grips.end(),
+                     [](const sweeps::BestGrip& grip) { return !std::isnan(grip.robust.mean); });
 }
 
 // With a plus if it is the largest tilt of the scene.
-std::string safe_tilt_text(const BestGrip& grip) {
+std::string safe_tilt_text(const sweeps::BestGrip& grip) {
   return std::isnan(grip.safe_tilt) ? shown_number(grip.safe_tilt, 0) : range_text(degrees(grip.safe_tilt), grip.is_safe_to_end);
 }
 
-using GripText = std::function<std::string(const BestGrip&)>;
+using GripText = std::function<std::string(const sweeps::BestGrip&)>;
 // A column of the table, and a grip's cell in it.
 struct GripColumn {
   std::string title;
@@ -66,47 +67,48 @@ struct GripColumn {
 using GripColumns = std::vector<GripColumn>;
 
 // The axes that the plan varies.
-void add_axes(const Plan& plan, GripColumns& columns) {
+void add_axes(const sweeps::Plan& plan, GripColumns& columns) {
   const auto add = [&](int place, const char* title, const GripText& cell) {
-    if (plan.varies(place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1)) columns.push_back({title, cell});
+    if (plan.varies(place) && !(place == sweeps::PLACE_HAND_SCALE && plan.hand_scales() > 1)) columns.push_back({title, cell});
   };
-  add(PLACE_ROLL, "roll (°)", [](const BestGrip& b) { return shown_number(degrees(b.grip.roll), 1); });
-  add(PLACE_OBLIQUITY, "obliquity (°)", [](const BestGrip& b) { return shown_number(degrees(b.grip.obliquity), 1); });
-  add(PLACE_AZIMUTH, "azimuth (°)", [](const BestGrip& b) { return shown_number(degrees(b.grip.azimuth), 1); });
-  add(PLACE_OFFSET, "offset (mm)", [](const BestGrip& b) { return shown_number(b.grip.offset * 1e3, 1); });
-  add(PLACE_HAND_SCALE, "hand scale", [](const BestGrip& b) { return shown_number(b.grip.hand_scale, 3); });
+  add(sweeps::PLACE_ROLL, "roll (°)", [](const sweeps::BestGrip& b) { return shown_number(degrees(b.grip.roll), 1); });
+  add(sweeps::PLACE_OBLIQUITY, "obliquity (°)",
+      [](const sweeps::BestGrip& b) { return shown_number(degrees(b.grip.obliquity), 1); });
+  add(sweeps::PLACE_AZIMUTH, "azimuth (°)", [](const sweeps::BestGrip& b) { return shown_number(degrees(b.grip.azimuth), 1); });
+  add(sweeps::PLACE_OFFSET, "offset (mm)", [](const sweeps::BestGrip& b) { return shown_number(b.grip.offset * 1e3, 1); });
+  add(sweeps::PLACE_HAND_SCALE, "hand scale", [](const sweeps::BestGrip& b) { return shown_number(b.grip.hand_scale, 3); });
 }
 
 // What the core computed of whole grips.
 void add_results(bool has_tilts, GripColumns& columns) {
   const auto add = [&](const char* title, const GripText& cell) { columns.push_back({title, cell}); };
-  add("fingers", [](const BestGrip& b) { return std::to_string(b.fingers_used); });
-  add("points", [](const BestGrip& b) { return std::to_string(b.points_touching); });
-  add("depth (mm)", [](const BestGrip& b) { return shown_number(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1); });
-  add("closure", [](const BestGrip& b) { return shown_number(b.closure, 2); });
-  add("gap (mm)", [](const BestGrip& b) { return shown_number(b.gap * 1e3, 1); });
-  if (!has_tilts) return add("antipodal", [](const BestGrip& b) { return std::string(b.antipodal ? "yes" : "no"); });
-  add("peak force (N)", [](const BestGrip& b) { return shown_number(b.peak_force, 2); });
-  add("at tilt (°)", [](const BestGrip& b) { return plain_number(degrees(b.peak_tilt)); });
-  add("hold force (N)", [](const BestGrip& b) { return shown_number(b.largest_hold, 1); });
+  add("fingers", [](const sweeps::BestGrip& b) { return std::to_string(b.fingers_used); });
+  add("points", [](const sweeps::BestGrip& b) { return std::to_string(b.points_touching); });
+  add("depth (mm)", [](const sweeps::BestGrip& b) { return shown_number(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1); });
+  add("closure", [](const sweeps::BestGrip& b) { return shown_number(b.closure, 2); });
+  add("gap (mm)", [](const sweeps::BestGrip& b) { return shown_number(b.gap * 1e3, 1); });
+  if (!has_tilts) return add("antipodal", [](const sweeps::BestGrip& b) { return std::string(b.antipodal ? "yes" : "no"); });
+  add("peak force (N)", [](const sweeps::BestGrip& b) { return shown_number(b.peak_force, 2); });
+  add("at tilt (°)", [](const sweeps::BestGrip& b) { return plain_number(degrees(b.peak_tilt)); });
+  add("hold force (N)", [](const sweeps::BestGrip& b) { return shown_number(b.largest_hold, 1); });
   add("safe tilt (°)", safe_tilt_text);
 }
 
 GripColumns columns_of(const ReportSource& source, const ReportedGrips& best) {
-  const Plan& plan = source.plan;
-  GripColumns columns{{"rank", [](const BestGrip& b) { return std::to_string(b.rank); }},
-                      {"score", [](const BestGrip& b) { return shown_number(b.score, 3); }},
-                      {"height (mm)", [](const BestGrip& b) { return shown_number(b.grip.height * 1e3, 1); }}};
+  const sweeps::Plan& plan = source.plan;
+  GripColumns columns{{"rank", [](const sweeps::BestGrip& b) { return std::to_string(b.rank); }},
+                      {"score", [](const sweeps::BestGrip& b) { return shown_number(b.score, 3); }},
+                      {"height (mm)", [](const sweeps::BestGrip& b) { return shown_number(b.grip.height * 1e3, 1); }}};
   add_axes(plan, columns);
   if (best.is_whole) add_results(!source.scene.tilts.empty(), columns);
   if (has_refined(best)) {
-    columns.push_back({"refined score", [](const BestGrip& b) { return shown_number(b.refined_score, 3); }});
-    columns.push_back({"refined grip", [&](const BestGrip& b) { return is_refined(b) ? grip_text(plan, b.refined) : ""; }});
+    columns.push_back({"refined score", [](const sweeps::BestGrip& b) { return shown_number(b.refined_score, 3); }});
+    columns.push_back({"refined grip", [&](const sweeps::BestGrip& b) { return is_refined(b) ? grip_text(plan, b.refined) : ""; }});
   }
   if (has_robust(best)) {
-    columns.push_back({"robust low", [](const BestGrip& b) { return shown_number(b.robust.low, 3); }});
-    columns.push_back({"robust mean", [](const BestGrip& b) { return shown_number(b.robust.mean, 3); }});
-    columns.push_back({"share that holds", [](const BestGrip& b) { return shown_number(b.robust.share, 2); }});
+    columns.push_back({"robust low", [](const sweeps::BestGrip& b) { return shown_number(b.robust.low, 3); }});
+    columns.push_back({"robust mean", [](const sweeps::BestGrip& b) { return shown_number(b.robust.mean, 3); }});
+    columns.push_back({"share that holds", [](const sweeps::BestGrip& b) { return shown_number(b.robust.share, 2); }});
   }
   return columns;
 }
@@ -117,9 +119,9 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
   for (const GripColumn& column : columns) texts.push_back(column.title);
   HtmlTable table(html,
                   fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : counted(best.grips.size(), "grip"),
-                              list_name(source.scene, source.plan, list)),
+                              sweeps::list_name(source.scene, source.plan, list)),
                   texts);
-  for (const BestGrip& grip : best.grips) {
+  for (const sweeps::BestGrip& grip : best.grips) {
     std::ranges::transform(columns, texts.begin(), [&](const GripColumn& column) { return column.cell(grip); });
     table.row(texts);
   }
@@ -127,15 +129,15 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
 }
 
 // One grip's drawing with its content in words; throws Error if it cannot be drawn.
-void draw_grip(MarkupWriter& html, const ReportSource& source, std::size_t list, const BestGrip& best,
+void draw_grip(MarkupWriter& html, const ReportSource& source, std::size_t list, const sweeps::BestGrip& best,
                const std::vector<RankedReport>& reports, std::size_t k) {
-  const GripReport& report = reports[k].report;
-  const std::string svg = front_and_side(grip_svg(source.scene, list / source.plan.hand_scales(), report));
-  const DrawnForces forces(report);
+  const sweeps::GripReport& report = reports[k].report;
+  const std::string svg = front_and_side(sweeps::grip_svg(source.scene, list / source.plan.hand_scales(), report));
+  const sweeps::DrawnForces forces(report);
   const std::string arrows = forces.empty() ? "" : fmt::format(" Arrows show the forces of the hand: {}.", forces.words());
   const std::string alt =
       fmt::format("Front and side view of the hand on {}, grip {} of the best: {}. Points touching by finger: {}.{}",
-                  list_name(source.scene, source.plan, list), best.rank, grip_text(source.plan, best.grip),
+                  sweeps::list_name(source.scene, source.plan, list), best.rank, grip_text(source.plan, best.grip),
                   touching_text(report.answer.result), arrows);
   html.open("div", {{"class", "drawing"}});
   html.empty("img", {{"src", svg_address(svg)}, {"alt", alt}});
@@ -147,7 +149,7 @@ void draw_grip(MarkupWriter& html, const ReportSource& source, std::size_t list,
 
 void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best,
                     const std::vector<RankedReport>& reports) {
-  const std::string name = list_name(source.scene, source.plan, list);
+  const std::string name = sweeps::list_name(source.scene, source.plan, list);
   MarkupWriter drawings;
   std::string refusal;
   std::size_t drawn = 0;
@@ -160,7 +162,7 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
       continue;
     }
     ++drawn;
-    has_forces = has_forces || !DrawnForces(reports[rank].report).empty();
+    has_forces = has_forces || !sweeps::DrawnForces(reports[rank].report).empty();
   }
   if (drawn > 0) {
     html.open("figure").open("div", {{"class", "drawings"}}).markup(drawings.written()).close();
@@ -179,7 +181,7 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
 
 // How the grips hold and what limits them, by the core. Nothing without reports_efforts.
 void write_limits(MarkupWriter& html, const ReportSource& source, std::size_t list, const std::vector<RankedReport>& reports) {
-  const std::string name = list_name(source.scene, source.plan, list);
+  const std::string name = sweeps::list_name(source.scene, source.plan, list);
   const std::size_t drawn = std::min(DRAWN_GRIPS, reports.size());
   if (!reports_efforts(source.scene)) return;
   write_digits(html, source.scene, {reports.begin(), reports.begin() + static_cast<std::ptrdiff_t>(drawn)}, name);
@@ -229,10 +231,10 @@ std::string front_and_side(const std::string& drawing) {
 
 ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
   const std::size_t scales = source.plan.hand_scales(), vessel = list / scales;
-  std::vector<RankedCandidate> ranked;
+  std::vector<sweeps::RankedCandidate> ranked;
   // only the sweep's own list has them
-  std::vector<std::optional<RefinedGrip>> refined;
-  std::vector<RobustScore> robust;
+  std::vector<std::optional<sweeps::RefinedGrip>> refined;
+  std::vector<sweeps::RobustScore> robust;
   if (source.lists) {
     ranked = (*source.lists)[list];
   } else {
@@ -244,10 +246,11 @@ ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
   best.listed = ranked.size();
   ranked.resize(std::min(ranked.size(), TABLED_GRIPS));
   std::vector<Candidate> candidates;
-  for (const RankedCandidate& grip : ranked) candidates.push_back(grip.candidate);
+  for (const sweeps::RankedCandidate& grip : ranked) candidates.push_back(grip.candidate);
   if (source.core) {
-    CoreBackend backend(source.core, source.scene, make_field_set(best_fields(source.scene), source.scene), Precision::full, 0);
-    best.grips = evaluate_best(backend, source.scene, source.plan, vessel, candidates);
+    CoreBackend backend(source.core, source.scene, make_field_set(sweeps::best_fields(source.scene), source.scene), Precision::full,
+                        0);
+    best.grips = sweeps::evaluate_best(backend, source.scene, source.plan, vessel, candidates);
     best.is_whole = true;
   }
   best.grips.resize(ranked.size());

@@ -16,8 +16,8 @@ constexpr std::size_t DRAWN_GRIPS = 3, TABLED_GRIPS = 50;
 // The first TABLED_GRIPS of a list of grips (GripLists). Their ranks, scores and places come from the list; everything else from the core in double
 // precision, if there is one (is_whole).
 struct ReportedGrips {
-  std::vector<BestGrip> grips;  // the best first
-  std::size_t listed = 0;       // in all
+  std::vector<sweeps::BestGrip> grips;  // the best first
+  std::size_t listed = 0;               // in all
   bool is_whole = false;
 };
 ReportedGrips read_grips(const ReportSource& source, std::size_t list);

@@ -128,9 +128,9 @@ GuidedSample guided_grips(const ReportSource& source, std::size_t vessel) {
   GuidedSample sample;
   const std::vector<std::uint64_t> places = sample_places(source.plan.stored_grips(), GUIDED_GRIPS);
   sample.looked_at = places.size();
-  const SweepResult& result = source.result;
-  const Variable *reason = result.find("reason"), *plausible = result.find("plausible"), *touch = result.find("touch_mask"),
-                 *used = result.find("used_mask");
+  const sweeps::SweepResult& result = source.result;
+  const sweeps::Variable *reason = result.find("reason"), *plausible = result.find("plausible"), *touch = result.find("touch_mask"),
+                         *used = result.find("used_mask");
   const bool knows_plausible = reason && plausible, knows_touching = touch && used;
   std::vector<std::uint64_t> wanted = places;
   if (knows_plausible) {

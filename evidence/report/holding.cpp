@@ -37,7 +37,7 @@ bool any_finite(const std::vector<double>& values) {
 std::string fullest_text(const Scene& scene, std::size_t vessel) {
   if (!scene.liquid) return "empty";
   return (scene.liquid->volumes.empty() ? "filled to " : "filled with ") +
-         fill_text(scene, vessel, vessel_fills(scene, scene.vessels[vessel]).back());
+         sweeps::fill_text(scene, vessel, vessel_fills(scene, scene.vessels[vessel]).back());
 }
 
 // A line in words, for those who do not see it.
@@ -103,16 +103,16 @@ void write_effort_table(MarkupWriter& html, const Scene& scene, const std::strin
 
 bool reports_efforts(const Scene& scene) { return scene.strength && !scene.tilts.empty(); }
 
-GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
-  GripReport report = make_grip_report(source.scene, vessel, grip, scene_axes(source.scene, vessel),
-                                       core_grip_methods(source.scene, source.core, "core"));
-  add_holding(report, source.scene, vessel, *source.core);
+sweeps::GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
+  sweeps::GripReport report = sweeps::make_grip_report(source.scene, vessel, grip, sweeps::scene_axes(source.scene, vessel),
+                                                       sweeps::core_grip_methods(source.scene, source.core, "core"));
+  sweeps::add_holding(report, source.scene, vessel, *source.core);
   return report;
 }
 
-std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const StateHold& hold) {
+std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const sweeps::StateHold& hold) {
   std::array<DigitLoad, FINGER_COUNT + 1> loads{};
-  for (const HeldContact& contact : hold.contacts)
+  for (const sweeps::HeldContact& contact : hold.contacts)
     loads[static_cast<std::size_t>(contact.digit)].force += dot(contact.force, contact.normal);
   for (std::size_t digit = 0; digit < loads.size(); ++digit) {
     if (!std::isfinite(hold.effort)) loads[digit].force = std::nan("");
@@ -125,7 +125,7 @@ void write_digits(MarkupWriter& html, const Scene& scene, const std::vector<Rank
   std::vector<std::string> columns{"digit", "strength (N)"};
   std::vector<std::array<DigitLoad, FINGER_COUNT + 1>> loads;
   for (const auto& [rank, report] : grips) {
-    const auto hardest = hardest_state(report);
+    const auto hardest = sweeps::hardest_state(report);
     if (!hardest) continue;
     loads.push_back(digit_loads(report.holds[*hardest]));
     columns.push_back(fmt::format("grip {} (N)", rank));
@@ -149,13 +149,13 @@ void write_digits(MarkupWriter& html, const Scene& scene, const std::vector<Rank
 TiltEfforts efforts_over_tilt(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
   TiltEfforts efforts;
   const Scene& scene = source.scene;
-  const StateAxes axes = scene_axes(scene, vessel);
+  const sweeps::StateAxes axes = sweeps::scene_axes(scene, vessel);
   if (!reports_efforts(scene)) return efforts;
-  const GripFindings answer = core_grip_methods(scene, source.core, "core").answer(vessel, grip, axes);
+  const sweeps::GripFindings answer = sweeps::core_grip_methods(scene, source.core, "core").answer(vessel, grip, axes);
   if (answer.result.reason != Reason::none) return efforts;
-  const Holding holding(scene, *source.core, vessel, answer.result, pour_direction(scene, grip));
+  const sweeps::Holding holding(scene, *source.core, vessel, answer.result, sweeps::pour_direction(scene, grip));
   for (std::size_t t = 0; t < axes.tilts.size(); ++t) {
-    const StateHold hold = holding.state(answer.states[(axes.fills.size() - 1) * axes.tilts.size() + t]);
+    const sweeps::StateHold hold = holding.state(answer.states[(axes.fills.size() - 1) * axes.tilts.size() + t]);
     efforts.whole.push_back(hold.effort);
     efforts.tips.push_back(hold.tips);
   }

@@ -15,14 +15,14 @@ namespace wholehand {
 bool reports_efforts(const Scene& scene);
 
 // The grip by the core over the scene's own states; also what holding demands if the scene has [strength]. Needs the core.
-GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, const GripInput& grip);
+sweeps::GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, const GripInput& grip);
 
 // A digit's load in a state: the sum of the normal forces of its contacts, N, and its share of the digit's strength.
 struct DigitLoad {
   double force = 0, share = 0;
 };
 // By digit, the palm last; NaN if no force of the hand holds the state.
-std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const StateHold& hold);
+std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const sweeps::StateHold& hold);
 
 // A table of them for some grips, each in its hardest state; nothing if no grip has holds. `name`: of the list of grips.
 void write_digits(MarkupWriter& html, const Scene& scene, const std::vector<RankedReport>& grips, const std::string& name);

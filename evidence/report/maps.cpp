@@ -20,7 +20,7 @@ constexpr std::size_t CHUNK_OF_GRIPS = 1 << 16;
 
 // Some variables of a vessel's grips at the plan's own places, chunk after chunk: columns[i] is the i-th variable's plane.
 struct ColumnOf {
-  const Variable* variable;
+  const sweeps::Variable* variable;
   std::size_t plane;
 };
 
@@ -66,16 +66,16 @@ void fill_by_core(const ReportSource& source, std::size_t vessel, GripMap& map) 
 }
 
 // Edges in what people read: degrees; mm, of fractions of a vessel's height too.
-std::vector<double> map_edges(const MapAxis& axis, double scale, double from = 0) {
+std::vector<double> map_edges(const sweeps::MapAxis& axis, double scale, double from = 0) {
   std::vector<double> edges;
   for (std::size_t i = 0; i <= axis.cells(); ++i) edges.push_back(from + axis.edge(i) * scale);
   return edges;
 }
 
 // The axes that vary beside height and roll: "obliquity and offset".
-std::string other_axes(const Plan& plan) {
+std::string other_axes(const sweeps::Plan& plan) {
   std::vector<std::string> names;
-  for (const int place : {PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_OFFSET, PLACE_HAND_SCALE}) {
+  for (const int place : {sweeps::PLACE_AZIMUTH, sweeps::PLACE_OBLIQUITY, sweeps::PLACE_OFFSET, sweeps::PLACE_HAND_SCALE}) {
     if (!plan.varies(place)) continue;
     names.push_back(plan.axes()[place].name);
     std::replace(names.back().begin(), names.back().end(), '_', ' ');
@@ -220,15 +220,15 @@ const MapCell* GripMap::best() const {
   return found;
 }
 
-bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& counts) {
-  const Variable *reason = source.result.find("reason"), *plausible = source.result.find("plausible"),
-                 *antipodal = source.result.find("antipodal"), *blocked = source.result.find("blocked_mask");
+bool read_counts(const ReportSource& source, std::size_t vessel, sweeps::GripCounts& counts) {
+  const sweeps::Variable *reason = source.result.find("reason"), *plausible = source.result.find("plausible"),
+                         *antipodal = source.result.find("antipodal"), *blocked = source.result.find("blocked_mask");
   if (!reason || !plausible || !antipodal) return false;
   std::vector<ColumnOf> wanted{{reason, 0}, {plausible, 0}, {antipodal, 0}};
   if (blocked) wanted.push_back({blocked, 0});
   // kept on request alone: the reasons of implausible grips are shown only where all of them are known
-  const Variable *table = source.result.find("through_table"), *overlap = source.result.find("self_overlap");
-  const Variable* wrist = source.result.find("beyond_wrist");
+  const sweeps::Variable *table = source.result.find("through_table"), *overlap = source.result.find("self_overlap");
+  const sweeps::Variable* wrist = source.result.find("beyond_wrist");
   const bool knows_parts =
       (table || !source.scene.table) && (overlap || source.scene.hand.between == 0) && (wrist || !source.scene.arm);
   const std::size_t table_at = wanted.size();
@@ -237,7 +237,7 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
   if (overlap) wanted.push_back({overlap, 0});
   const std::size_t wrist_at = wanted.size();
   if (wrist) wanted.push_back({wrist, 0});
-  const Variable *not_held = source.result.find("not_held"), *effort = effort_variable(source);
+  const sweeps::Variable *not_held = source.result.find("not_held"), *effort = effort_variable(source);
   const std::size_t not_held_at = wanted.size();
   if (not_held) wanted.push_back({not_held, 0});
   const std::size_t effort_at = wanted.size();
@@ -261,7 +261,7 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
                    }
                    counts.not_held += not_held && columns[not_held_at][i] == 1 ? 1 : 0;
                    if (effort && columns[effort_at][i] >= 0)
-                     counts.least_bad = std::min(counts.least_bad, {columns[effort_at][i], LeastBad::ENDLESS, first + i});
+                     counts.least_bad = std::min(counts.least_bad, {columns[effort_at][i], sweeps::LeastBad::ENDLESS, first + i});
                    counts.antipodal += columns[2][i] == 1 ? 1 : 0;
                    counts.blocked += blocked && columns[3][i] > 0 ? 1 : 0;
                  }
@@ -271,17 +271,17 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
 
 bool has_map(const ReportSource& source) { return source.result.find("score") != nullptr; }
 
-const Variable* effort_variable(const ReportSource& source) { return source.result.find("worst_effort"); }
+const sweeps::Variable* effort_variable(const ReportSource& source) { return source.result.find("worst_effort"); }
 
-GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable* effort) {
+GripMap read_map(const ReportSource& source, std::size_t vessel, const sweeps::Variable* effort) {
   const auto& axes = source.plan.axes();
   const std::uint64_t points = source.plan.grips();
-  GripMap map{MapAxis(axes[PLACE_HEIGHT], points), MapAxis(axes[PLACE_ROLL], points), {}};
+  GripMap map{sweeps::MapAxis(axes[sweeps::PLACE_HEIGHT], points), sweeps::MapAxis(axes[sweeps::PLACE_ROLL], points), {}};
   map.cells.resize(map.heights.cells() * map.rolls.cells());
-  const Variable *score = source.result.find("score"), *reason = source.result.find("reason"),
-                 *fingers = source.result.find("fingers_used"), *force = source.result.find("peak_feedback_force");
+  const sweeps::Variable *score = source.result.find("score"), *reason = source.result.find("reason"),
+                         *fingers = source.result.find("fingers_used"), *force = source.result.find("peak_feedback_force");
   std::vector<ColumnOf> wanted{{score, 0}};
-  const auto add = [&wanted](const Variable* variable, std::size_t planes) {
+  const auto add = [&wanted](const sweeps::Variable* variable, std::size_t planes) {
     const std::size_t place = wanted.size();
     for (std::size_t plane = 0; variable && plane < planes; ++plane) wanted.push_back({variable, plane});
     return place;
@@ -295,8 +295,8 @@ GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable*
   std::vector<double> heights(CHUNK_OF_GRIPS), rolls(CHUNK_OF_GRIPS);
   read_columns(source, vessel, wanted,
                [&](std::uint64_t first, std::size_t count, const std::vector<std::vector<double>>& columns) {
-                 source.plan.coordinates(PLACE_HEIGHT, first, count, heights.data());
-                 source.plan.coordinates(PLACE_ROLL, first, count, rolls.data());
+                 source.plan.coordinates(sweeps::PLACE_HEIGHT, first, count, heights.data());
+                 source.plan.coordinates(sweeps::PLACE_ROLL, first, count, rolls.data());
                  for (std::size_t i = 0; i < count; ++i) {
                    if (reason && columns[reason_at][i] != 0) continue;
                    MapCell& cell = map.cells[map.heights.cell(heights[i]) * map.rolls.cells() + map.rolls.cell(rolls[i])];
@@ -327,7 +327,7 @@ MapScales map_scales(const std::vector<GripMap>& maps) {
                    {"peak force (N)", 0, 1, 1, 0},
                    {"worst effort", 0, 1, 2, 0}};
   double low = 0, high = 0;
-  if (value_range(maps, &MapCell::score, low, high)) scales.score = score_scale(low, high);
+  if (value_range(maps, &MapCell::score, low, high)) scales.score = sweeps::score_scale(low, high);
   if (value_range(maps, &MapCell::peak_force, low, high)) {
     scales.peak_force.low = std::floor(low * 2) / 2;
     scales.peak_force.high = std::max(std::ceil(high * 2) / 2, scales.peak_force.low + 0.5);

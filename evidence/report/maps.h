@@ -26,7 +26,7 @@ struct MapCell {
 };
 
 struct GripMap {
-  MapAxis heights, rolls;
+  sweeps::MapAxis heights, rolls;
   std::vector<MapCell> cells;  // height-major
   bool knows_reasons = false;  // otherwise a grip without a score counts as implausible
   bool has_fingers = false, has_forces = false, has_efforts = false;
@@ -35,15 +35,15 @@ struct GripMap {
 };
 
 // The counts of a vessel's grips. False: the file lacks what they need.
-bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& counts);
+bool read_counts(const ReportSource& source, std::size_t vessel, sweeps::GripCounts& counts);
 
 // Whether there is a score to map.
 bool has_map(const ReportSource& source);
 // The variable with the worst effort of each grip; null if the file lacks it.
-const Variable* effort_variable(const ReportSource& source);
+const sweeps::Variable* effort_variable(const ReportSource& source);
 // The best of equal scores is the first. Fingers and forces that the file lacks come from the core, if there is one. `effort`: one real per grip,
 // infinite if nothing holds the vessel and NaN if the grip is not plausible; null: there are no efforts.
-GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable* effort);
+GripMap read_map(const ReportSource& source, std::size_t vessel, const sweeps::Variable* effort);
 inline GripMap read_map(const ReportSource& source, std::size_t vessel) {
   return read_map(source, vessel, effort_variable(source));
 }

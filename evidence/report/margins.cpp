@@ -36,9 +36,9 @@ constexpr const char* NO_DEPTH = "0.0\u00a0mm";
 double times_within(double limit, double used) { return used > 0 ? limit / used : ENDLESS; }
 
 // Unclamped, over the states that count; NaN without states.
-double largest_normal_force(const GripReport& report) {
+double largest_normal_force(const sweeps::GripReport& report) {
   double largest = NO_NUMBER;
-  for (const GripState& state : report.answer.states) {
+  for (const sweeps::GripState& state : report.answer.states) {
     if (state.counts && !(largest >= state.state.normal_force)) largest = state.state.normal_force;
   }
   return largest;
@@ -57,7 +57,7 @@ struct Merit {
   std::string shown;
 };
 
-std::string term_number(const GripReport& report, std::size_t term) {
+std::string term_number(const sweeps::GripReport& report, std::size_t term) {
   const GripResult& result = report.answer.result;
   switch (term) {
     case FINGERS_TERM:
@@ -74,7 +74,7 @@ std::string term_number(const GripReport& report, std::size_t term) {
     case HOLD_TERM:
       return percent_text(report.hold->worst);
     default:
-      return held_percent(report.held_share.value_or(NO_NUMBER)) + "\u00a0%";
+      return sweeps::held_percent(report.held_share.value_or(NO_NUMBER)) + "\u00a0%";
   }
 }
 
@@ -100,7 +100,7 @@ std::string term_reason(const Scene& scene, const Merit& merit) {
 }
 
 // Each term's contribution to a grip's score, and last the share of its deviations that hold: lists are ranked by the deviations' score.
-std::vector<Merit> merits_of(const Scene& scene, const GripReport& report) {
+std::vector<Merit> merits_of(const Scene& scene, const sweeps::GripReport& report) {
   const ScoreTerms& terms = report.answer.score.terms;
   const std::array<double, 6> weights = effective_weights(scene),
                               values{terms.fingers, terms.contacts, terms.depth, terms.posture, terms.force, terms.hold};
@@ -120,7 +120,7 @@ bool is_reason(const Merit& merit, double worst, std::optional<Limit> weakest) {
 
 // The words for at most two terms in which the grip is better than the median of its list, first those in which it is better than most grips. If
 // there are fewer, also the term that adds most, which others of the list may share (but not a depth above 0).
-std::vector<std::string> best_reasons(const Scene& scene, const GripReport& report, const std::vector<RankedReport>& list,
+std::vector<std::string> best_reasons(const Scene& scene, const sweeps::GripReport& report, const std::vector<RankedReport>& list,
                                       std::optional<Limit> weakest) {
   std::vector<std::vector<Merit>> others;
   for (const RankedReport& other : list)
@@ -166,16 +166,16 @@ std::vector<std::string> best_reasons(const Scene& scene, const GripReport& repo
   return words;
 }
 
-std::string worst_state(const Scene& scene, const GripReport& report) {
+std::string worst_state(const Scene& scene, const sweeps::GripReport& report) {
   const std::string tilt = fmt::format("at a tilt of {}°", plain_number(degrees(report.hold->worst_tilt)));
   return report.has_liquid ? fmt::format("{} and a fill of {}", tilt,
-                                         report.capacity > 0 ? fill_number(report, report.hold->worst_fill) + "\u00a0mL"
-                                                             : share_text(scene, report.hold->worst_fill))
+                                         report.capacity > 0 ? sweeps::fill_number(report, report.hold->worst_fill) + "\u00a0mL"
+                                                             : sweeps::share_text(scene, report.hold->worst_fill))
                            : tilt;
 }
 
 // What the smallest margin is about, and why.
-std::string limit_text(const Scene& scene, const GripReport& report, const Margin& margin) {
+std::string limit_text(const Scene& scene, const sweeps::GripReport& report, const Margin& margin) {
   const bool is_kept = margin.value >= 1;
   const std::string shown = fmt::format("(margin {})", shown_number(margin.value, margin.value < 10 ? 2 : 0));
   switch (margin.limit) {
@@ -206,7 +206,7 @@ std::string limit_text(const Scene& scene, const GripReport& report, const Margi
 
 }  // namespace
 
-std::vector<Margin> grip_margins(const Scene& scene, const GripReport& report) {
+std::vector<Margin> grip_margins(const Scene& scene, const sweeps::GripReport& report) {
   std::vector<Margin> margins;
   if (!report.hold) return margins;
   margins.push_back({Limit::effort, times_within(1, report.hold->worst)});
@@ -225,7 +225,7 @@ std::optional<Margin> smallest_margin(const std::vector<Margin>& margins) {
   return *found;
 }
 
-std::string verdict(const Scene& scene, const GripReport& report, const std::vector<RankedReport>& list) {
+std::string verdict(const Scene& scene, const sweeps::GripReport& report, const std::vector<RankedReport>& list) {
   if (!report.hold) return "";
   const std::optional<Margin> weakest = smallest_margin(grip_margins(scene, report));
   const std::vector<std::string> reasons =

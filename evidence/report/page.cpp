@@ -174,21 +174,21 @@ class Page {
 
   // How many grips are what, the best of each hand, and whether it lies at an end of an axis.
   void write_summary(std::size_t v, const std::vector<ReportedGrips>& lists) {
-    GripCounts counts;
+    sweeps::GripCounts counts;
     const bool knows_reasons = read_counts(source_, v, counts);
     if (!knows_reasons) counts.grips = source_.plan.grips();
-    html_.open("p").text(counts_line(counts, knows_reasons, source_.plan.copies()) + ".");
+    html_.open("p").text(sweeps::counts_line(counts, knows_reasons, source_.plan.copies()) + ".");
     if (counts.none_holds() && counts.least_bad.is_known() && source_.core)
-      html_.text(" " + sentence(unheld_line(*source_.core, scene_, source_.plan, v, counts.least_bad)) + ".");
+      html_.text(" " + sentence(sweeps::unheld_line(*source_.core, scene_, source_.plan, v, counts.least_bad)) + ".");
     for (const ReportedGrips& best : lists) {
       if (best.grips.empty()) continue;
-      const BestGrip& first = best.grips[0];
+      const sweeps::BestGrip& first = best.grips[0];
       html_.text(fmt::format(" The best grip scores {}: {}.", shown_number(first.score, 3), grip_text(source_.plan, first.grip)));
     }
     html_.close();
     std::set<std::string> noted;  // once for all hands
     for (const ReportedGrips& best : lists) {
-      const std::string edge = edge_line(edge_axes(scene_, source_.plan, v, best_first({best})));
+      const std::string edge = sweeps::edge_line(sweeps::edge_axes(scene_, source_.plan, v, best_first({best})));
       if (!edge.empty() && noted.insert(edge).second) html_.element("p", sentence(edge));
     }
   }
@@ -210,13 +210,14 @@ class Page {
 
 }  // namespace
 
-std::string report_page(SweepResult& result, const Scene& given, const std::string& mesh_error, const std::string& lists_file) {
+std::string report_page(sweeps::SweepResult& result, const Scene& given, const std::string& mesh_error,
+                        const std::string& lists_file) {
   Scene scene = given;
-  set_heights(result, scene);
-  const Plan plan(scene, keeps_vectors(result.variables()));
+  sweeps::set_heights(result, scene);
+  const sweeps::Plan plan(scene, sweeps::keeps_vectors(result.variables()));
   result.use(scene, plan);
   ReportSource source{result, scene, plan, nullptr, mesh_error, std::nullopt, lists_file.substr(lists_file.rfind('/') + 1)};
-  if (!lists_file.empty()) source.lists = read_grip_lists(lists_file, result, scene, plan);
+  if (!lists_file.empty()) source.lists = sweeps::read_grip_lists(lists_file, result, scene, plan);
   if (mesh_error.empty()) {
     try {
       source.core = make_core_evaluator(scene);

@@ -14,7 +14,7 @@ namespace wholehand {
 // its meshes read if possible; `trouble`: why they could not be, empty if nothing is missing. A sentence replaces what then cannot be computed.
 // `lists_file`: a list of `wholehand rank` whose grips replace the sweep's best, or empty. Throws Error (usage) if the file does not fit its scene,
 // or the list the file.
-std::string report_page(SweepResult& result, const Scene& scene, const std::string& mesh_error = "",
+std::string report_page(sweeps::SweepResult& result, const Scene& scene, const std::string& mesh_error = "",
                         const std::string& lists_file = "");
 
 // The start of such a page: the element html, which stays open, and its head with the style and the mark of wholehand's pages.

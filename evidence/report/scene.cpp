@@ -24,21 +24,21 @@ void write_pair(MarkupWriter& html, const char* name, const std::string& value) 
 
 // "height 10 to 95 % of the vessel's (64 values)", ..
 std::string grips_text(const ReportSource& source) {
-  const Plan& plan = source.plan;
+  const sweeps::Plan& plan = source.plan;
   std::vector<std::string> parts;
   const auto add = [&](int place, const char* name, double scale, const std::string& unit) {
     parts.push_back(fmt::format("{} {}", name, axis_text(plan.axes()[place], scale, unit)));
   };
   if (source.scene.grips.height_is_fraction) {
-    add(PLACE_HEIGHT, "height", 100, " % of the vessel's height");
+    add(sweeps::PLACE_HEIGHT, "height", 100, " % of the vessel's height");
   } else {
-    add(PLACE_HEIGHT, "height", 1e3, " mm");
+    add(sweeps::PLACE_HEIGHT, "height", 1e3, " mm");
   }
-  add(PLACE_ROLL, "roll", degrees(1), "°");
-  add(PLACE_OBLIQUITY, "obliquity", degrees(1), "°");
-  add(PLACE_AZIMUTH, "azimuth", degrees(1), "°");
-  add(PLACE_OFFSET, "offset", 1e3, " mm");
-  add(PLACE_HAND_SCALE, "hand scale", 1, "");
+  add(sweeps::PLACE_ROLL, "roll", degrees(1), "°");
+  add(sweeps::PLACE_OBLIQUITY, "obliquity", degrees(1), "°");
+  add(sweeps::PLACE_AZIMUTH, "azimuth", degrees(1), "°");
+  add(sweeps::PLACE_OFFSET, "offset", 1e3, " mm");
+  add(sweeps::PLACE_HAND_SCALE, "hand scale", 1, "");
   const std::string kind =
       plan.is_sobol() ? counted(plan.grips(), "point") + " of a Sobol sequence" : readable_number(plan.stored_grips());
   return fmt::format("{}: {}", kind, joined(parts, ", "));
@@ -168,7 +168,7 @@ void write_scene(MarkupWriter& html, const ReportSource& source) {
   write_pair(html, "Hand", hand_text(scene));
   if (!scene.tilts.empty()) write_pair(html, "Feedback force", force_text(scene));
   write_pair(html, "Holding", hold_text(scene));
-  write_pair(html, "Score", "weights: " + weights_text(scene));
+  write_pair(html, "Score", "weights: " + sweeps::weights_text(scene));
   html.close();
   write_vessels(html, source);
   write_meshes(html, source.result.origin().meshes);
@@ -195,9 +195,9 @@ std::vector<std::string> left_out(const ReportSource& source) {
     sentences.emplace_back("The inner wall: for the fingers the vessels are solid.");
   std::size_t possible = 0;
   std::vector<std::string> missing;
-  for (const Variable& variable : variable_catalogue()) {
-    if (variable.need == Need::table && !scene.table) continue;
-    if (variable.need == Need::arm && !scene.arm) continue;
+  for (const sweeps::Variable& variable : sweeps::variable_catalogue()) {
+    if (variable.need == sweeps::Need::table && !scene.table) continue;
+    if (variable.need == sweeps::Need::arm && !scene.arm) continue;
     ++possible;
     if (!source.result.find(variable.name)) missing.emplace_back(variable.name);
   }
@@ -211,7 +211,7 @@ std::vector<std::string> left_out(const ReportSource& source) {
 }
 
 void write_origin(MarkupWriter& html, const ReportSource& source) {
-  const SweepOrigin& origin = source.result.origin();
+  const sweeps::SweepOrigin& origin = source.result.origin();
   const std::size_t vessels = source.scene.vessels.size();
   const double grips = static_cast<double>(source.plan.grips()) * static_cast<double>(vessels);
   const double states =

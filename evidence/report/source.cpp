@@ -19,7 +19,7 @@ std::vector<std::uint64_t> sample_places(std::uint64_t all, std::size_t count) {
   return places;
 }
 
-GripInput stored_grip(const Plan& plan, const Scene& scene, std::size_t vessel, std::uint64_t place) {
+GripInput stored_grip(const sweeps::Plan& plan, const Scene& scene, std::size_t vessel, std::uint64_t place) {
   GripInput grip = plan.grip(vessel, place % plan.grips());
   if (plan.copies() > 1) grip.azimuth = scene.grips.azimuth.values[place / plan.grips()];
   return grip;
@@ -31,29 +31,29 @@ GatheredPlanes planes_by_core(const ReportSource& source, std::size_t vessel, co
   return gather(backend, vessel, grips);
 }
 
-std::string axis_text(const PlanAxis& axis, double scale, const std::string& unit) {
+std::string axis_text(const sweeps::PlanAxis& axis, double scale, const std::string& unit) {
   constexpr std::size_t LISTED = 8;
   std::vector<std::string> numbers;
-  if (axis.kind == AxisKind::number || (axis.kind == AxisKind::list && axis.values.size() <= LISTED)) {
+  if (axis.kind == sweeps::AxisKind::number || (axis.kind == sweeps::AxisKind::list && axis.values.size() <= LISTED)) {
     for (const double value : axis.values) numbers.push_back(plain_number(value * scale));
     return joined(numbers, ", ") + unit;
   }
   const std::string ends = fmt::format("{} to {}{}", plain_number(axis.low * scale), plain_number(axis.high * scale), unit);
-  if (axis.kind == AxisKind::range) return ends;
+  if (axis.kind == sweeps::AxisKind::range) return ends;
   return fmt::format("{} ({} values)", ends, readable_number(axis.values.size()));
 }
 
-std::string grip_text(const Plan& plan, const GripInput& grip, std::string (*number)(double value, int digits),
+std::string grip_text(const sweeps::Plan& plan, const GripInput& grip, std::string (*number)(double value, int digits),
                       const char* degree) {
   std::string text = fmt::format("height {} mm", number(grip.height * 1e3, 1));
   const auto add = [&](int place, const char* name, double value, int digits, const char* unit) {
     if (plan.varies(place)) text += fmt::format(", {} {}{}", name, number(value, digits), unit);
   };
-  add(PLACE_ROLL, "roll", degrees(grip.roll), 1, degree);
-  add(PLACE_OBLIQUITY, "obliquity", degrees(grip.obliquity), 1, degree);
-  add(PLACE_AZIMUTH, "azimuth", degrees(grip.azimuth), 1, degree);
-  add(PLACE_OFFSET, "offset", grip.offset * 1e3, 1, " mm");
-  add(PLACE_HAND_SCALE, "hand scale", grip.hand_scale, 3, "");
+  add(sweeps::PLACE_ROLL, "roll", degrees(grip.roll), 1, degree);
+  add(sweeps::PLACE_OBLIQUITY, "obliquity", degrees(grip.obliquity), 1, degree);
+  add(sweeps::PLACE_AZIMUTH, "azimuth", degrees(grip.azimuth), 1, degree);
+  add(sweeps::PLACE_OFFSET, "offset", grip.offset * 1e3, 1, " mm");
+  add(sweeps::PLACE_HAND_SCALE, "hand scale", grip.hand_scale, 3, "");
   return text;
 }
 

@@ -24,15 +24,15 @@ constexpr int ADVICE_THREADS = 1;         // people are shared among the threads
 constexpr std::array<double AdvisedOutcome::*, 5> OUTCOME_NUMBERS{
     &AdvisedOutcome::grasps, &AdvisedOutcome::lost, &AdvisedOutcome::effort, &AdvisedOutcome::seconds, &AdvisedOutcome::is_whole};
 
-AdvisedOutcome play(const Scene& scene, const Participant& person, std::uint64_t tremor, const std::vector<SimJob>& jobs,
-                    SteppedAdvice* advice, const std::atomic<bool>& stop) {
+AdvisedOutcome play(const Scene& scene, const Participant& person, std::uint64_t tremor, const std::vector<device::SimJob>& jobs,
+                    device::SteppedAdvice* advice, const std::atomic<bool>& stop) {
   EffortWatch efforts(scene.live.rate);
-  Tick last;
+  device::Tick last;
   SimulatedSession asked{scene, person, tremor, jobs};
   asked.shown = advice;
   const bool is_whole = run_simulated(
       asked,
-      [&](const Tick& tick, const Session& session) {
+      [&](const device::Tick& tick, const device::Session& session) {
         if (advice) advice->look(tick, session.poses());
         efforts.take(tick, session);
         last = tick;
@@ -49,12 +49,12 @@ double AdvisedOutcome::lost_share() const { return grasps > 0 ? lost / grasps : 
 
 EffortWatch::EffortWatch(double rate) : period_(std::max<std::int64_t>(1, std::llround(rate / EFFORT_LOOKS))) {}
 
-void EffortWatch::take(const Tick& tick, const Session& session) {
-  if (!is_held(tick.state)) return;
+void EffortWatch::take(const device::Tick& tick, const device::Session& session) {
+  if (!device::is_held(tick.state)) return;
   if (tick.grasps > grasps_) largest_.push_back(0);
   grasps_ = tick.grasps;
   if (tick.number % period_ != 0) return;
-  const HandView hand = hand_view(session.live(), tick, session.poses());
+  const device::HandView hand = device::hand_view(session.live(), tick, session.poses());
   if (hand.hold) largest_.back() = std::max(largest_.back(), std::min(LARGEST_COUNTED_EFFORT, hand.hold->effort));
 }
 
@@ -65,25 +65,25 @@ double EffortWatch::mean() const {
 
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop) {
   return advised_person(scene, seed, person, stop,
-                        [](const Scene& own) { return std::make_unique<Adviser>(own, "core", ADVICE_THREADS); });
+                        [](const Scene& own) { return std::make_unique<device::Adviser>(own, "core", ADVICE_THREADS); });
 }
 
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop,
-                             const AdviceLoop::AdviserOpener& open) {
+                             const device::AdviceLoop::AdviserOpener& open) {
   Scene own = scene;
   const Participant participant(scene.people, seed, person, Experiment::advice);
   own.hand = participant.hand(scene.hand);
-  const std::vector<SimJob> jobs = jobs_of(own);
+  const std::vector<device::SimJob> jobs = jobs_of(own);
   AdvisedPerson outcome;
   outcome.without.effort = outcome.with.effort = NO_OUTCOME;
   if (jobs.empty()) return outcome;
   const std::uint64_t tremor = tremor_seed(scene, seed, person, 0);
   outcome.without = play(own, participant, tremor, jobs, nullptr, stop);
-  SteppedAdvice::Options options;
+  device::SteppedAdvice::Options options;
   options.while_held = false;
   options.keeps_line = true;
   options.grips = STUDY_CLOUD;
-  SteppedAdvice advice(own, open, options);
+  device::SteppedAdvice advice(own, open, options);
   outcome.with = play(own, participant, tremor, jobs, &advice, stop);
   if (const std::vector<std::string> warnings = advice.take_warnings(); !warnings.empty())
     throw failure_error(fmt::format("person {} has no session with advice: {}", person, warnings.front()));

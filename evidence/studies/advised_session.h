@@ -36,7 +36,7 @@ struct AdvisedPerson {
 class EffortWatch {
  public:
   explicit EffortWatch(double rate);  // of the session, Hz
-  void take(const Tick& tick, const Session& session);
+  void take(const device::Tick& tick, const device::Session& session);
   // Mean over the grasps of the largest effort of each, at most LARGEST_COUNTED_EFFORT; NaN: no grasp.
   double mean() const;
 
@@ -51,7 +51,7 @@ class EffortWatch {
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop);
 // With a custom adviser.
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop,
-                             const AdviceLoop::AdviserOpener& open);
+                             const device::AdviceLoop::AdviserOpener& open);
 
 // As numbers, to the bit, for a journal.
 std::vector<double> to_numbers(const AdvisedPerson& person);

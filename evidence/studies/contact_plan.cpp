@@ -126,7 +126,7 @@ void ContactPlan::plan_vessel(const Evaluator& core, StudyVessel& vessel) {
     grasp.grip.azimuth = planned_azimuth(scene_, points[point]);
     grasp.place = guidance_place(core, vessel.place, points[point]);
     // as the simulated user chooses
-    if (const auto chosen = best_roll(core, vessel.place, grasp.grip)) {
+    if (const auto chosen = device::best_roll(core, vessel.place, grasp.grip)) {
       grasp.grip = chosen->grip;
     } else {
       unheld_.push_back(fmt::format("{} at {:g} mm", vessel.name, points[point].height * 1e3));

@@ -31,7 +31,7 @@ std::string choice_name(const ForceChoice& choice) {
   return choice.range == 0 ? fmt::format("{:g}", choice.base) : fmt::format("{:g}-{:g}", choice.base, choice.base + choice.range);
 }
 
-void ForceWatch::begin(const Tick& tick) {
+void ForceWatch::begin(const device::Tick& tick) {
   outcome_.has_gripped = true;
   since_ = tick.number;
   still_ = 0;
@@ -40,22 +40,22 @@ void ForceWatch::begin(const Tick& tick) {
   window_.clear();
 }
 
-bool ForceWatch::take(const Tick& tick) {
+bool ForceWatch::take(const device::Tick& tick) {
   if (is_over_) return false;
-  const bool held = is_held(tick.state);
+  const bool held = device::is_held(tick.state);
   if (held && !was_held_) begin(tick);
-  if (was_held_ && !held && most_ > FELT) ++outcome_.losses;  // what succeeds is over before it ends
+  if (was_held_ && !held && most_ > device::FELT) ++outcome_.losses;  // what succeeds is over before it ends
   was_held_ = held;
   if (!held) return true;
   most_ = std::max(most_, tick.feedback);
   outcome_.opening = std::max(outcome_.opening, tick.device.gap - gap_);
   const bool is_settled = static_cast<double>(tick.number - since_) >= SETTLED * rate_;
-  if (tick.state == SessionState::tilt || !is_settled) {
+  if (tick.state == device::SessionState::tilt || !is_settled) {
     window_.clear();
   } else {
     watch_swings(tick.feedback);
   }
-  still_ = tick.state == SessionState::maintain ? still_ + 1 : 0;
+  still_ = tick.state == device::SessionState::maintain ? still_ + 1 : 0;
   is_over_ = outcome_.has_succeeded = static_cast<double>(still_) >= HELD_STILL * rate_;
   return !is_over_;
 }
@@ -89,7 +89,7 @@ Scene force_scene(const Scene& scene, std::size_t vessel) {
   return one;
 }
 
-ForceOutcome try_forces(Scene scene, const std::vector<SimJob>& jobs, const Participant& person, const ForceChoice& choice,
+ForceOutcome try_forces(Scene scene, const std::vector<device::SimJob>& jobs, const Participant& person, const ForceChoice& choice,
                         std::uint64_t seed, const std::atomic<bool>& stop) {
   scene.force.base = choice.base;
   scene.force.range = choice.range;
@@ -97,7 +97,7 @@ ForceOutcome try_forces(Scene scene, const std::vector<SimJob>& jobs, const Part
   ForceWatch watch(scene.live.rate);
   if (jobs.empty()) return watch.outcome();
   run_simulated(
-      {scene, person, seed, jobs}, [&watch](const Tick& tick, const Session&) { return watch.take(tick); }, stop);
+      {scene, person, seed, jobs}, [&watch](const device::Tick& tick, const device::Session&) { return watch.take(tick); }, stop);
   return watch.outcome();
 }
 

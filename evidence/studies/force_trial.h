@@ -55,11 +55,11 @@ class ForceWatch {
  public:
   explicit ForceWatch(double rate) : rate_(rate) {}
   // False: it is over. Later ticks do not count.
-  bool take(const Tick& tick);
+  bool take(const device::Tick& tick);
   const ForceOutcome& outcome() const { return outcome_; }
 
  private:
-  void begin(const Tick& tick);
+  void begin(const device::Tick& tick);
   void watch_swings(double force);
 
   double rate_;
@@ -76,7 +76,7 @@ class ForceWatch {
 Scene force_scene(const Scene& scene, std::size_t vessel);
 
 // `scene`: of force_scene, with the person's own hand; `jobs`: its jobs.
-ForceOutcome try_forces(Scene scene, const std::vector<SimJob>& jobs, const Participant& person, const ForceChoice& choice,
+ForceOutcome try_forces(Scene scene, const std::vector<device::SimJob>& jobs, const Participant& person, const ForceChoice& choice,
                         std::uint64_t seed, const std::atomic<bool>& stop);
 
 }  // namespace wholehand

@@ -15,7 +15,7 @@ ForcesOfPerson forces_of_person(const Scene& scene, std::size_t vessel, std::uin
                                 const std::atomic<bool>& stop) {
   Scene own = force_scene(scene, vessel);
   own.hand = Participant(scene.people, seed, person, Experiment::forces).hand(scene.hand);
-  const std::vector<SimJob> jobs = jobs_of(own);
+  const std::vector<device::SimJob> jobs = jobs_of(own);
   ForcesOfPerson forces{};
   for (std::size_t k = 0; k < FORCE_CHOICES && !stop; ++k) {
     const Participant participant(scene.people, seed, person, Experiment::forces, k * GRASPS_OF_TRIAL);

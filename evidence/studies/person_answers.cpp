@@ -22,8 +22,8 @@ const std::vector<std::pair<std::string, of_grasp::Number>> SESSION_ANSWERS{
 const std::vector<std::string> FORCE_ANSWERS{"losses", "largest_opening"};
 
 std::vector<double> session_answers(const SessionSubject& person, const SessionVessels& vessels) {
-  std::vector<MeanSum> sums(SESSION_ANSWERS.size());
-  for (const GraspReport& grasp : person.grasps) {
+  std::vector<device::MeanSum> sums(SESSION_ANSWERS.size());
+  for (const device::GraspReport& grasp : person.grasps) {
     const bool counts = std::any_of(vessels.begin(), vessels.end(), [&grasp](const SessionVessel& vessel) {
       return static_cast<int>(vessel.place) == grasp.vessel;
     });
@@ -31,12 +31,12 @@ std::vector<double> session_answers(const SessionSubject& person, const SessionV
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(SESSION_ANSWERS[k].second(grasp));
   }
   std::vector<double> answers;
-  for (const MeanSum& sum : sums) answers.push_back(sum.result().mean);
+  for (const device::MeanSum& sum : sums) answers.push_back(sum.result().mean);
   return answers;
 }
 
 std::vector<double> force_answers(const ForcesOfPerson& person) {
-  MeanSum losses, opening;
+  device::MeanSum losses, opening;
   for (const ForceOutcome& one : person) {
     if (!one.has_gripped) continue;
     losses.add(one.losses);

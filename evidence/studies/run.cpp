@@ -74,7 +74,7 @@ class StudyRun {
       if (!scene.task)
         throw usage_error(fmt::format(
             "{}: the experiment of advice needs a task, which says what is poured; add [task] to the scene", name_of(scene)));
-      advice_scene(scene);  // refuses a scene without strengths
+      device::advice_scene(scene);  // refuses a scene without strengths
       check_live(scene);
     }
     folder_.emplace(options.folder);
@@ -125,9 +125,9 @@ class StudyRun {
 
   // Refuses before any work what `wholehand live` would refuse: vessels in each other, nothing to do for the scene's own hand, unstable gains.
   static void check_live(const Scene& scene) {
-    const LiveScene live(scene);
-    plan_sim_jobs(scene);
-    refuse_unstable_gains(scene, {live.hand.scale * live.hand.gap_closed, live.hand.scale * live.hand.gap_open}, false);
+    const device::LiveScene live(scene);
+    device::plan_sim_jobs(scene);
+    device::refuse_unstable_gains(scene, {live.hand.scale * live.hand.gap_closed, live.hand.scale * live.hand.gap_open}, false);
   }
 
   void say(const std::string& what) const {

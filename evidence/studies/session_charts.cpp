@@ -50,7 +50,7 @@ std::string chart_of(const ShownForce& shown, std::span<const SessionSubject> su
   for (std::size_t v = 0; v < vessels.size(); ++v) {
     std::vector<double> values;
     for (const SessionSubject& subject : subjects)
-      for (const GraspReport& grasp : subject.grasps)
+      for (const device::GraspReport& grasp : subject.grasps)
         if (static_cast<std::size_t>(grasp.vessel) == vessels[v].place) values.push_back(shown.number(grasp));
     chart.groups.push_back({vessels[v].name, box_of(values), mark_of(rows, vessels[v].name, shown.statistic)});
   }

@@ -25,7 +25,7 @@ using namespace of_grasp;
 
 constexpr std::uint64_t SESSION_SAMPLES = 0x73657373696f6e73;  // keeps the samples' draws from those of people
 
-using GraspList = std::vector<const GraspReport*>;
+using GraspList = std::vector<const device::GraspReport*>;
 using GraspsByVessel = std::vector<GraspList>;  // in the order of the SessionVessels
 
 // ---- statistics of grasps ----
@@ -61,10 +61,10 @@ const std::array<OfAll, 19> OF_ALL{{
     {{"maintained_time_mean", Summary::mean, maintained_time}, 4.12},
     {{"maintained_over_8N_share", Summary::mean, is_hard}, 2.0 / 61},
     {{"maintained_under_1N_share", Summary::mean, is_soft}, 3.0 / 61},
-    {{"g1_share", Summary::mean, has_course<GripCourse::equal>}},
-    {{"g2_share", Summary::mean, has_course<GripCourse::more>}},
-    {{"g3_share", Summary::mean, has_course<GripCourse::less>}},
-    {{"g4_share", Summary::mean, has_course<GripCourse::complex>}, 7.0 / 71},
+    {{"g1_share", Summary::mean, has_course<device::GripCourse::equal>}},
+    {{"g2_share", Summary::mean, has_course<device::GripCourse::more>}},
+    {{"g3_share", Summary::mean, has_course<device::GripCourse::less>}},
+    {{"g4_share", Summary::mean, has_course<device::GripCourse::complex>}, 7.0 / 71},
     {{"rising_share", Summary::mean, is_rising}, 62.0 / 71},
     {{"falling_share", Summary::mean, is_falling}, 6.0 / 71},
     {{"lost_share", Summary::mean, is_lost}},
@@ -81,10 +81,10 @@ const std::array<OfVessel, 18> OF_VESSEL{{
     {{"grip_after_mean", Summary::mean, grip_after}},
     {{"response_time_mean", Summary::mean, response_time}},
     {{"grip_stopped_mean", Summary::mean, grip_stopped}},
-    {{"g1_share", Summary::mean, has_course<GripCourse::equal>}},
-    {{"g2_share", Summary::mean, has_course<GripCourse::more>}},
-    {{"g3_share", Summary::mean, has_course<GripCourse::less>}},
-    {{"g4_share", Summary::mean, has_course<GripCourse::complex>}},
+    {{"g1_share", Summary::mean, has_course<device::GripCourse::equal>}},
+    {{"g2_share", Summary::mean, has_course<device::GripCourse::more>}},
+    {{"g3_share", Summary::mean, has_course<device::GripCourse::less>}},
+    {{"g4_share", Summary::mean, has_course<device::GripCourse::complex>}},
     {{"rising_share", Summary::mean, is_rising}},
     {{"lost_share", Summary::mean, is_lost}},
     {{"tilted_share", Summary::mean, has_tilt}},
@@ -101,13 +101,13 @@ const std::array<BetweenVessels, 4> BETWEEN{{{"anova_f"}, {"anova_p"}, {"anova_s
 
 double value_of(const Measure& measure, const GraspList& grasps) {
   if (measure.summary != Summary::correlation) {
-    MeanSum sum;
-    for (const GraspReport* grasp : grasps) sum.add(measure.number(*grasp));
-    const MeanDeviation result = sum.result();
+    device::MeanSum sum;
+    for (const device::GraspReport* grasp : grasps) sum.add(measure.number(*grasp));
+    const device::MeanDeviation result = sum.result();
     return measure.summary == Summary::mean ? result.mean : result.deviation;
   }
   std::vector<double> x, y;
-  for (const GraspReport* grasp : grasps) {
+  for (const device::GraspReport* grasp : grasps) {
     const double one = measure.number(*grasp), other = measure.with(*grasp);
     if (!std::isfinite(one) || !std::isfinite(other)) continue;
     x.push_back(one);
@@ -121,8 +121,8 @@ std::array<double, BETWEEN.size()> between_vessels(const GraspsByVessel& grasps)
   std::vector<std::vector<double>> groups(grasps.size());
   std::vector<double> means;
   for (std::size_t v = 0; v < grasps.size(); ++v) {
-    MeanSum sum;
-    for (const GraspReport* grasp : grasps[v]) {
+    device::MeanSum sum;
+    for (const device::GraspReport* grasp : grasps[v]) {
       const double increase = normal_increase(*grasp);
       if (std::isfinite(increase)) groups[v].push_back(increase);
       sum.add(increase);
@@ -155,7 +155,7 @@ class GraspPool {
   GraspPool(std::span<const SessionSubject> subjects, const SessionVessels& vessels) : vessels_(vessels.size()) {
     for (const SessionSubject& subject : subjects) {
       GraspsByVessel& grasps = subjects_.emplace_back(vessels_);
-      for (const GraspReport& grasp : subject.grasps)
+      for (const device::GraspReport& grasp : subject.grasps)
         for (std::size_t v = 0; v < vessels_; ++v)
           if (static_cast<std::size_t>(grasp.vessel) == vessels[v].place) grasps[v].push_back(&grasp);
     }

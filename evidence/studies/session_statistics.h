@@ -29,7 +29,7 @@ using SessionVessels = std::vector<SessionVessel>;  // for the paper's first, se
 SessionVessels session_vessels(const Scene& scene);
 
 struct SessionSubject {
-  std::vector<GraspReport> grasps;  // all of one person's sessions
+  std::vector<device::GraspReport> grasps;  // all of one person's sessions
 };
 
 struct SessionSampling {

@@ -13,12 +13,17 @@ namespace {
 
 constexpr std::uint64_t GRASPS_OF_SESSION = 1000;  // numbers of a session's grasps, so that the next one has others
 
-constexpr std::array<double GraspReport::*, 16> GRASP_REALS{
-    &GraspReport::after_at_first, &GraspReport::spilled,           &GraspReport::start,        &GraspReport::end,
-    &GraspReport::response_time,  &GraspReport::tightened,         &GraspReport::largest_tilt, &GraspReport::tilt_start,
-    &GraspReport::tilt_time,      &GraspReport::normal_increase,   &GraspReport::grip_change,  &GraspReport::turning_back,
-    &GraspReport::saturated,      &GraspReport::guidance_distance, &GraspReport::poured,       &GraspReport::arrived};
-constexpr std::array<MeanDeviation GraspReport::*, 3> GRASP_MEANS{&GraspReport::before, &GraspReport::during, &GraspReport::after};
+constexpr std::array<double device::GraspReport::*, 16> GRASP_REALS{
+    &device::GraspReport::after_at_first, &device::GraspReport::spilled,
+    &device::GraspReport::start,          &device::GraspReport::end,
+    &device::GraspReport::response_time,  &device::GraspReport::tightened,
+    &device::GraspReport::largest_tilt,   &device::GraspReport::tilt_start,
+    &device::GraspReport::tilt_time,      &device::GraspReport::normal_increase,
+    &device::GraspReport::grip_change,    &device::GraspReport::turning_back,
+    &device::GraspReport::saturated,      &device::GraspReport::guidance_distance,
+    &device::GraspReport::poured,         &device::GraspReport::arrived};
+constexpr std::array<device::MeanDeviation device::GraspReport::*, 3> GRASP_MEANS{
+    &device::GraspReport::before, &device::GraspReport::during, &device::GraspReport::after};
 
 }  // namespace
 
@@ -26,19 +31,19 @@ PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::u
   Scene own = scene;
   own.hand = Participant(scene.people, seed, person, Experiment::sessions).hand(scene.hand);
   PersonSessions all;
-  const std::vector<SimJob> jobs = jobs_of(own);
+  const std::vector<device::SimJob> jobs = jobs_of(own);
   if (jobs.empty()) return all;
   for (std::uint64_t session = 0; session < SESSIONS_PER_PERSON && !stop; ++session) {
     const Participant participant(scene.people, seed, person, Experiment::sessions, session * GRASPS_OF_SESSION);
-    GraspCollector collector(own.live.rate, own.force.max);
+    device::GraspCollector collector(own.live.rate, own.force.max);
     const bool is_whole = run_simulated(
         {own, participant, tremor_seed(scene, seed, person, session), jobs},
-        [&collector](const Tick& tick, const Session&) {
+        [&collector](const device::Tick& tick, const device::Session&) {
           collector.add(tick);
           return true;
         },
         stop);
-    const std::vector<GraspReport> found = collector.finish();
+    const std::vector<device::GraspReport> found = collector.finish();
     all.grasps.insert(all.grasps.end(), found.begin(), found.end());
     all.broken += is_whole ? 0 : 1;
   }
@@ -47,11 +52,11 @@ PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::u
 
 std::vector<double> to_numbers(const PersonSessions& sessions) {
   std::vector<double> numbers{static_cast<double>(sessions.broken)};
-  for (const GraspReport& grasp : sessions.grasps) {
+  for (const device::GraspReport& grasp : sessions.grasps) {
     for (const auto member : GRASP_REALS) numbers.push_back(grasp.*member);
     numbers.insert(numbers.end(), grasp.duration.begin(), grasp.duration.end());
     for (const auto member : GRASP_MEANS) {
-      const MeanDeviation& one = grasp.*member;
+      const device::MeanDeviation& one = grasp.*member;
       numbers.insert(numbers.end(), {one.mean, one.deviation, static_cast<double>(one.count)});
     }
     numbers.insert(numbers.end(),
@@ -67,18 +72,18 @@ PersonSessions sessions_from_numbers(const std::vector<double>& numbers) {
   sessions.broken = static_cast<int>(numbers[0]);
   sessions.grasps.resize((numbers.size() - 1) / EACH);
   std::size_t at = 1;
-  for (GraspReport& grasp : sessions.grasps) {
+  for (device::GraspReport& grasp : sessions.grasps) {
     for (const auto member : GRASP_REALS) grasp.*member = numbers[at++];
     for (double& duration : grasp.duration) duration = numbers[at++];
     for (const auto member : GRASP_MEANS) {
-      MeanDeviation& one = grasp.*member;
+      device::MeanDeviation& one = grasp.*member;
       one.mean = numbers[at++];
       one.deviation = numbers[at++];
       one.count = static_cast<std::size_t>(numbers[at++]);
     }
     grasp.vessel = static_cast<int>(numbers[at++]);
-    grasp.course = static_cast<GripCourse>(static_cast<int>(numbers[at++]));
-    grasp.outcome = static_cast<GraspOutcome>(static_cast<int>(numbers[at++]));
+    grasp.course = static_cast<device::GripCourse>(static_cast<int>(numbers[at++]));
+    grasp.outcome = static_cast<device::GraspOutcome>(static_cast<int>(numbers[at++]));
   }
   return sessions;
 }

@@ -15,8 +15,8 @@ namespace wholehand {
 constexpr std::uint64_t SESSIONS_PER_PERSON = 2;
 
 struct PersonSessions {
-  std::vector<GraspReport> grasps;  // measured like a recording's; none if the person's hand holds no vessel
-  int broken = 0;                   // sessions that did not end by themselves
+  std::vector<device::GraspReport> grasps;  // measured like a recording's; none if the person's hand holds no vessel
+  int broken = 0;                           // sessions that did not end by themselves
 };
 
 // Ends early if `stop` is set.

@@ -13,15 +13,15 @@ namespace wholehand {
 
 bool run_simulated(const SimulatedSession& asked, const TickTaker& take, const std::atomic<bool>& stop) {
   if (asked.jobs.empty()) return true;
-  const auto gripper = open_sim(asked.scene, asked.seed, asked.person, asked.jobs, asked.shown);
-  Session session(asked.scene, gripper->limits().gap);
-  LoopOptions options;
+  const auto gripper = device::open_sim(asked.scene, asked.seed, asked.person, asked.jobs, asked.shown);
+  device::Session session(asked.scene, gripper->limits().gap);
+  device::LoopOptions options;
   options.is_simulated = true;
   options.seconds = asked.seconds;
   std::exception_ptr error;
   bool is_enough = false;
   // the loop lets nothing through
-  const auto sink = [&](const Tick& tick) {
+  const auto sink = [&](const device::Tick& tick) {
     if (is_enough) return false;
     try {
       is_enough = !take(tick, session);
@@ -31,10 +31,10 @@ bool run_simulated(const SimulatedSession& asked, const TickTaker& take, const s
     }
     return !is_enough;
   };
-  HapticLoop loop(asked.scene.live, *gripper, session, sink, options);
+  device::HapticLoop loop(asked.scene.live, *gripper, session, sink, options);
   loop.run(stop);
   if (error) std::rethrow_exception(error);
-  return is_enough || (loop.report().fault == Fault::none && gripper->is_done()) || stop;
+  return is_enough || (loop.report().fault == device::Fault::none && gripper->is_done()) || stop;
 }
 
 std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t person, std::uint64_t k) {
@@ -44,9 +44,9 @@ std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t 
   return bits;
 }
 
-std::vector<SimJob> jobs_of(const Scene& scene) {
+std::vector<device::SimJob> jobs_of(const Scene& scene) {
   try {
-    return plan_sim_jobs(scene);
+    return device::plan_sim_jobs(scene);
   } catch (const Error& error) {
     if (error.code != ExitCode::usage) throw;
     return {};  // too small a hand, say

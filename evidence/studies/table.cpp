@@ -28,7 +28,7 @@ std::string correlation_word(const StudyRow& row) {
 }
 
 void define_study(const std::string& path, const Scene& scene, const StudyOptions& options, std::span<const StudyRow> rows) {
-  ResultDefinition file(path, STUDY_REMEDY);
+  sweeps::ResultDefinition file(path, STUDY_REMEDY);
   file.dimension("row", rows.size());
   file.text(NC_GLOBAL, "Conventions", "CF-1.8");
   file.text(NC_GLOBAL, "title", "study of people with " + (scene.name.empty() ? std::string("a scene") : scene.name));
@@ -44,7 +44,7 @@ void define_study(const std::string& path, const Scene& scene, const StudyOption
   file.text(NC_GLOBAL, "seed", fmt::format("{}", options.seed));
   file.text(NC_GLOBAL, "resamples", fmt::format("{}", options.resamples));
   const auto texts = [&](const char* name, const char* long_name, const std::function<std::string(const StudyRow&)>& of) {
-    ResultDefinition::Names values;
+    sweeps::ResultDefinition::Names values;
     for (const StudyRow& row : rows) values.push_back(of(row));
     file.strings(name, {"row"}, long_name, values);
   };
@@ -64,7 +64,7 @@ void define_study(const std::string& path, const Scene& scene, const StudyOption
   numbers("high", "upper end of it", [](const StudyRow& row) { return row.interval.high; });
   numbers("paper", "the paper's value, where it is known", [](const StudyRow& row) { return row.paper.value_or(std::nan("")); });
   std::vector<int> inside;
-  for (const StudyRow& row : rows) inside.push_back(row.inside() ? (*row.inside() ? 1 : 0) : MISSING);
+  for (const StudyRow& row : rows) inside.push_back(row.inside() ? (*row.inside() ? 1 : 0) : sweeps::MISSING);
   file.integers("inside", {"row"}, "", "whether the paper's value is in the interval", inside, {{"outside", "inside"}, true});
   texts("word", "the correlation in the paper's words", correlation_word);
   file.finish({});

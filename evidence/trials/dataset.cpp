@@ -90,7 +90,7 @@ class Dataset {
   }
 
   void integers_of_grips(const char* name, const char* long_name, const std::function<int(const TrialGrip&)>& value,
-                         const IntegerCodes& codes = {}) {
+                         const sweeps::IntegerCodes& codes = {}) {
     std::vector<int> values;
     for (const TrialGrip& grip : tried_.grips) values.push_back(value(grip));
     file_.integers(name, {"grip"}, "", long_name, values, codes);
@@ -110,7 +110,7 @@ class Dataset {
     file_.doubles(name, {"trial"}, units, long_name, of_each_trial(value));
   }
 
-  void integers_of_trials(const char* name, const char* long_name, const OfTrial& value, const IntegerCodes& codes = {}) {
+  void integers_of_trials(const char* name, const char* long_name, const OfTrial& value, const sweeps::IntegerCodes& codes = {}) {
     const std::vector<double> values = of_each_trial(value);
     file_.integers(name, {"trial"}, "", long_name, {values.begin(), values.end()}, codes);
   }
@@ -164,7 +164,7 @@ class Dataset {
       shares.push_back(found.robust.share);
       const std::array<std::size_t, 4> counts{count.all, count.held, count.discarded, count.impossible};
       for (std::size_t k = 0; k < counts.size(); ++k)
-        numbers[k].push_back(count.all > 0 ? static_cast<int>(counts[k]) : static_cast<int>(MISSING));
+        numbers[k].push_back(count.all > 0 ? static_cast<int>(counts[k]) : static_cast<int>(sweeps::MISSING));
     }
     file_.doubles("robust_low", {"grip"}, "1", "10th percentile of the score over the deviations of [robust]", lows);
     file_.doubles("robust_mean", {"grip"}, "1", "mean of these scores", means);
@@ -187,12 +187,12 @@ class Dataset {
     of_trials("fill", "1", "fill, as a fraction of the capacity", [](const TrialView& at) { return at.one.fill; });
     of_trials("tilt", "rad", "tilt; of fill-tilt", [](const TrialView& at) { return at.is_push() ? ABSENT : at.one.tilt; });
     integers_of_trials("direction", "direction of the push, in the vessel's frame; of six-forces",
-                       [](const TrialView& at) { return at.is_push() ? at.one.direction : MISSING; },
+                       [](const TrialView& at) { return at.is_push() ? at.one.direction : sweeps::MISSING; },
                        {{FORCE_DIRECTION_NAMES.begin(), FORCE_DIRECTION_NAMES.end()}, true});
     std::vector<std::string> materials;
     for (const TrialMaterial& material : settings.materials) materials.push_back(material.name);
     integers_of_trials("material", "whose mass and friction the vessel has; of six-forces",
-                       [](const TrialView& at) { return at.is_push() ? at.one.material : MISSING; }, {materials, true});
+                       [](const TrialView& at) { return at.is_push() ? at.one.material : sweeps::MISSING; }, {materials, true});
     of_trials("effort", "1", "effort of the whole hand", [](const TrialView& at) { return at.said.effort; });
     of_trials("tips_effort", "1", "effort of thumb and index tip alone", [](const TrialView& at) { return at.said.tips; });
     of_trials("leg_effort", "1", "largest effort on the way to the state", [](const TrialView& at) { return at.said.leg_effort; });
@@ -217,7 +217,7 @@ class Dataset {
               [=](const TrialView& at) { return when_run(at, at.outcome.slip); });
     integers_of_trials("slipped", "whether a contact slid farther than slip_m; not of a discarded trial",
                        [&](const TrialView& at) {
-                         return at.outcome.discarded ? MISSING : has_slipped(at.outcome, settings) ? 1.0 : 0.0;
+                         return at.outcome.discarded ? sweeps::MISSING : has_slipped(at.outcome, settings) ? 1.0 : 0.0;
                        },
                        {{"not_slipped", "slipped"}, true});
     of_trials("move", "m", "largest way of the vessel in the hand",
@@ -234,7 +234,7 @@ class Dataset {
     file_.strings("detail", {"trial"}, "what the engine said of a trial that it could not compute", details);
   }
 
-  ResultDefinition file_;
+  sweeps::ResultDefinition file_;
   const TriedGrips& tried_;
 };
 

@@ -13,11 +13,11 @@ namespace {
 
 void draw_disagreement(const TrialPredictor& predictor, const TrialGrip& grip, const TrialCase& one, ShownDisagreement& shown) {
   const double tilt = one.protocol == TrialProtocol::fill_tilt ? one.tilt : 0;
-  GripReport report = make_grip_report(predictor.scene(), grip.vessel, grip.grip, {{one.fill}, {tilt}},
-                                       core_grip_methods(predictor.scene(), predictor.core(), "core"));
-  add_holding(report, predictor.scene(), grip.vessel, *predictor.core());
-  shown.drawing = front_and_side(grip_svg(predictor.scene(), grip.vessel, report));
-  const DrawnForces forces(report);
+  sweeps::GripReport report = sweeps::make_grip_report(predictor.scene(), grip.vessel, grip.grip, {{one.fill}, {tilt}},
+                                                       sweeps::core_grip_methods(predictor.scene(), predictor.core(), "core"));
+  sweeps::add_holding(report, predictor.scene(), grip.vessel, *predictor.core());
+  shown.drawing = front_and_side(sweeps::grip_svg(predictor.scene(), grip.vessel, report));
+  const sweeps::DrawnForces forces(report);
   if (!forces.empty()) shown.forces = forces.words();
 }
 

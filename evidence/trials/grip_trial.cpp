@@ -83,11 +83,11 @@ GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Eva
       friction_(number_or(settings.friction, scene.force.friction)),
       torsion_(scene.force.torsion),
       result_(result_of(evaluator, vessel, grip)),
-      vessel_load_(scene, evaluator, vessel, pour_direction(scene, grip)),
+      vessel_load_(scene, evaluator, vessel, sweeps::pour_direction(scene, grip)),
       is_articulated_(settings.model == TrialModel::hand) {
   const Handedness side = scene.hand.handedness;
   posed_ = mirrored_hand(result_.posed, side);
-  pour_ = mirrored(pour_direction(scene, grip), side);
+  pour_ = mirrored(sweeps::pour_direction(scene, grip), side);
   contacts_ = grasp_contacts(scene, evaluator, vessel, result_);
   contacts_.strength.friction = friction_;
   contacts_.strength.torsion = torsion_;

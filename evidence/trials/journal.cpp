@@ -123,7 +123,7 @@ TrialJournal::TrialJournal(const std::string& path, const TrialIdentity& identit
 void TrialJournal::add(std::size_t grip, const GripFinding& found) {
   Json outcomes = Json::array();
   for (const TrialOutcome& outcome : found.outcomes) outcomes.push_back(outcome_json(outcome));
-  const RobustScore& robust = found.robust;
+  const sweeps::RobustScore& robust = found.robust;
   lines_.add({{"grip", grip},
               {"said", prediction_json(found.prediction)},
               {"outcomes", outcomes},

@@ -99,7 +99,7 @@ void write_success_over_tilt(MarkupWriter& html, const TrialPageSource& source, 
   if (chart.x.size() < 2) return;
   for (const SuccessRow* row : rows) {
     const std::string label = source.scene.liquid && !source.scene.liquid->volumes.empty()
-                                  ? fill_text(source.scene, vessel, row->fill)
+                                  ? sweeps::fill_text(source.scene, vessel, row->fill)
                                   : fmt::format("fill {}", plain_number(row->fill));
     if (chart.lines.empty() || chart.lines.back().label != label) {
       chart.lines.push_back({label, std::vector<double>(chart.x.size(), std::nan("")), row->fill, {}, false, false});
@@ -179,12 +179,12 @@ std::string grip_words(const TrialPageSource& source, const Disagreement& which)
   const TrialGrip& grip = source.tried.grips[which.grip];
   const TrialCase& one = source.tried.cases_of(which.grip)[which.place];
   const std::string& material = source.options.settings.materials[static_cast<std::size_t>(one.material)].name;
-  const std::string state =
-      one.protocol == TrialProtocol::fill_tilt
-          ? fmt::format("fill {}, tilted by {}°", fill_text(source.scene, grip.vessel, one.fill), plain_number(degrees(one.tilt)))
-          : fmt::format("pushed along {} at the mass and friction of {}",
-                        FORCE_DIRECTION_NAMES[static_cast<std::size_t>(one.direction)],
-                        material == "scene" ? "the scene" : material);
+  const std::string state = one.protocol == TrialProtocol::fill_tilt
+                                ? fmt::format("fill {}, tilted by {}°", sweeps::fill_text(source.scene, grip.vessel, one.fill),
+                                              plain_number(degrees(one.tilt)))
+                                : fmt::format("pushed along {} at the mass and friction of {}",
+                                              FORCE_DIRECTION_NAMES[static_cast<std::size_t>(one.direction)],
+                                              material == "scene" ? "the scene" : material);
   return fmt::format("{}, grip {} ({}), {}", source.scene.vessels[grip.vessel].name, grip.number,
                      TRIAL_SAMPLE_NAMES[static_cast<std::size_t>(grip.sample)], state);
 }

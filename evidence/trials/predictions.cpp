@@ -62,7 +62,7 @@ TrialPredictor::TrialPredictor(const Scene& scene, const TrialSettings& settings
 double TrialPredictor::mass_of(double state) const { return std::isnan(settings_.mass) ? state : settings_.mass; }
 
 GripPrediction TrialPredictor::predict(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases) const {
-  Held held{vessel, grip, {}, to_vec3<double>(pour_direction(scene_, grip)), {}, {}, {}};
+  Held held{vessel, grip, {}, to_vec3<double>(sweeps::pour_direction(scene_, grip)), {}, {}, {}};
   core_->grip(vessel, grip, held.result);
   for (const GripContact& found : core_->contacts(vessel, held.result)) {
     held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit, found.is_tip});
@@ -82,7 +82,7 @@ GripPrediction TrialPredictor::predict(std::size_t vessel, const GripInput& grip
   }
   predict_states(held, prediction);
   predict_scores(held, prediction);
-  const GripQuality quality = grip_quality(scene_, *core_, vessel, held.result, TRIAL_FACETS);
+  const sweeps::GripQuality quality = sweeps::grip_quality(scene_, *core_, vessel, held.result, TRIAL_FACETS);
   prediction.epsilon = 0.5 * (quality.wrenches.epsilon[0] + quality.wrenches.epsilon[1]);
   return prediction;
 }
@@ -124,7 +124,7 @@ void TrialPredictor::predict_leg(const Held& held, const TrialCase& one, double 
 }
 
 TrialPredictor::States TrialPredictor::states_of(std::size_t vessel) const {
-  const StateAxes axes = scene_axes(scene_, vessel);
+  const sweeps::StateAxes axes = sweeps::scene_axes(scene_, vessel);
   const VesselConstants constants = core_->constants(vessel);
   const auto load_at = [&](double fill, double tilt) {
     const LiquidResult liquid = scene_.liquid ? core_->liquid(vessel, fill, tilt) : LiquidResult{};

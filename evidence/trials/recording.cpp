@@ -64,8 +64,9 @@ Mat3 matrix_of(const std::array<double, 4>& q) {
 }
 
 // What does not change in the course of a trial.
-Tick still_tick(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one, const GripResult& result) {
-  Tick tick;
+device::Tick still_tick(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one,
+                        const GripResult& result) {
+  device::Tick tick;
   tick.vessel = 0;
   tick.closure = result.closure;
   tick.touch_mask = result.touch_mask;
@@ -85,9 +86,9 @@ Tick still_tick(const Scene& scene, const Evaluator& core, const TrialGrip& grip
   return tick;
 }
 
-RecordingInfo info_of_trial(const Scene& scene, const std::string& engine, const TrialGrip& grip, double gap) {
+device::RecordingInfo info_of_trial(const Scene& scene, const std::string& engine, const TrialGrip& grip, double gap) {
   const VesselData& vessel = scene.vessels[grip.vessel];
-  RecordingInfo info;
+  device::RecordingInfo info;
   info.scene_name = scene.name;
   info.scene_file = scene.file;
   info.scene_text = text_of_one_vessel(scene, grip.vessel);
@@ -149,21 +150,21 @@ std::vector<TrialFrame> joined_frames(const std::vector<TrialTrack>& tracks) {
   return frames;
 }
 
-std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one,
-                                 const TrialOutcome& outcome, const std::vector<TrialFrame>& frames, double rate) {
+std::vector<device::Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one,
+                                         const TrialOutcome& outcome, const std::vector<TrialFrame>& frames, double rate) {
   GripResult result;
   core.grip(grip.vessel, grip.grip, result);
   const VesselData& vessel = scene.vessels[grip.vessel];
-  const Tick still = still_tick(scene, core, grip, one, result);
+  const device::Tick still = still_tick(scene, core, grip, one, result);
   const Vec3 pivot = to_vec3<double>(result.midpoint);
   const Vec3 over = to_vec3<double>(vessel.place) + pivot + Vec3(0, vessel.height - vessel.base, 0);
   const Handedness hand = scene.hand.handedness;
   const Mat3 axes = mirrored(gripper_axes(mirrored(grip.grip, hand)), hand);  // a left hand is a right one in a mirror
-  std::vector<Tick> ticks;
+  std::vector<device::Tick> ticks;
   for (const TrialFrame& frame : frames) {
     const Mat3 turn = turn_to_up(glm::normalize(to_vec3<double>(frame.up)));
     const auto out = [&](const Triple& point) { return to_triple(over + turn * (to_vec3<double>(point) - pivot)); };
-    Tick tick = still;
+    device::Tick tick = still;
     tick.number = std::llround(frame.time * rate);
     if (!ticks.empty() && tick.number <= ticks.back().number) continue;
     tick.device.time = frame.time;
@@ -178,7 +179,9 @@ std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, cons
     tick.vessel_rotation = to_rotation(turned);
     tick.tilt = std::acos(std::clamp(turned[1].y, -1.0, 1.0));
     const bool is_lost = !outcome.held && frame.time >= outcome.when;
-    tick.state = is_lost ? SessionState::slipped : tick.tilt < radians(5) ? SessionState::lift : SessionState::maintain;
+    tick.state = is_lost                  ? device::SessionState::slipped
+                 : tick.tilt < radians(5) ? device::SessionState::lift
+                                          : device::SessionState::maintain;
     tick.lost = is_lost ? 1 : 0;
     ticks.push_back(tick);
   }
@@ -188,11 +191,11 @@ std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, cons
 void write_trial_recording(const std::string& path, const Scene& scene, const Evaluator& core, const std::string& engine,
                            const TrialGrip& grip, const TrialCase& one, const TrialOutcome& outcome,
                            const std::vector<TrialTrack>& tracks) {
-  const RecordingInfo info = info_of_trial(scene, engine, grip, core.gap_at(0));
+  const device::RecordingInfo info = info_of_trial(scene, engine, grip, core.gap_at(0));
   if (info.scene_text.empty()) throw usage_error("the scene's text does not stand without its other vessels");
-  const std::vector<Tick> ticks = ticks_of_trial(scene, core, grip, one, outcome, joined_frames(tracks), TICK_RATE);
+  const std::vector<device::Tick> ticks = ticks_of_trial(scene, core, grip, one, outcome, joined_frames(tracks), TICK_RATE);
   const PartialFile partial(path + ".partial");
-  RecordingWriter writer(path, info, "recording", TRIALS_REMEDY);
+  device::RecordingWriter writer(path, info, "recording", TRIALS_REMEDY);
   const bool is_written = writer.append(ticks);
   if (writer.finish({}) && is_written) return;
   std::remove(path.c_str());  // a session keeps what the disk took; a trial can be written once more

@@ -23,8 +23,8 @@ std::vector<TrialFrame> joined_frames(const std::vector<TrialTrack>& tracks);
 
 // One tick per moment. Gravity points down, so the hand turns with the vessel that it holds. The middle of the tips is above the table by the
 // vessel's height. Tips are the engine's; a viewer poses the other fingers anew.
-std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one,
-                                 const TrialOutcome& outcome, const std::vector<TrialFrame>& frames, double rate);
+std::vector<device::Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one,
+                                         const TrialOutcome& outcome, const std::vector<TrialFrame>& frames, double rate);
 
 // Writes the recording to `path`, where nothing exists yet. Throws Error: (usage) text_of_one_vessel has none; (failure) it cannot be written, and
 // nothing of it is left.

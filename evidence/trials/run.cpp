@@ -105,7 +105,7 @@ std::string plain_detail(std::string detail) {
 
 class Trials {
  public:
-  Trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, SweepResult* result)
+  Trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, sweeps::SweepResult* result)
       : scene_(scene), options_(options), result_(result), predictor_(checked(scene, options.scatter), options.settings) {
     find_cases();
     engine_ = open(predictor_.scene(), *predictor_.core(), options.settings);
@@ -192,7 +192,7 @@ class Trials {
 
   // By the scene's own friction, so that the same grips are tried with any friction.
   void choose_grips(InterruptGuard& interrupt) {
-    const Plan plan(scene_, result_ && keeps_vectors(result_->variables()));
+    const sweeps::Plan plan(scene_, result_ && sweeps::keeps_vectors(result_->variables()));
     if (result_) result_->use(scene_, plan);
     const bool is_own = std::isnan(options_.settings.friction);
     const std::shared_ptr<const Evaluator> core = is_own ? predictor_.core() : make_core_evaluator(scene_);
@@ -310,7 +310,7 @@ class Trials {
 
   const Scene& scene_;
   const TrialOptions& options_;
-  SweepResult* result_;
+  sweeps::SweepResult* result_;
   TrialPredictor predictor_;
   std::unique_ptr<TrialEngine> engine_;
   std::optional<GripScatter> scatter_;
@@ -319,7 +319,7 @@ class Trials {
 
 }  // namespace
 
-ExitCode run_trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, SweepResult* result) {
+ExitCode run_trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, sweeps::SweepResult* result) {
   return Trials(scene, options, open, result).run();
 }
 

@@ -42,7 +42,8 @@ std::vector<std::size_t> asked_vessels(const Scene& scene, const TrialOptions& o
   return vessels;
 }
 
-std::vector<Candidate> listed_best(const SweepResult& result, const Plan& plan, std::size_t vessel, std::size_t count) {
+std::vector<Candidate> listed_best(const sweeps::SweepResult& result, const sweeps::Plan& plan, std::size_t vessel,
+                                   std::size_t count) {
   std::vector<Candidate> all;
   std::size_t fewest = count;
   for (std::size_t scale = 0; scale < plan.hand_scales(); ++scale) {
@@ -97,7 +98,7 @@ std::vector<std::uint64_t> looked_at(std::uint64_t grips, std::size_t most, std:
   return numbers;
 }
 
-std::vector<Candidate> plausible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
+std::vector<Candidate> plausible_by_core(const Scene& scene, const sweeps::Plan& plan, std::shared_ptr<const Evaluator> core,
                                          std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop) {
   const std::vector<std::uint64_t> numbers = looked_at(plan.grips(), options.most_looked, vessel, options.seed);
   CoreBackend backend(std::move(core), scene, make_field_set({FIELD_SCORE, FIELD_STATUS}, scene), Precision::full, options.threads);
@@ -122,9 +123,9 @@ std::vector<Candidate> plausible_by_core(const Scene& scene, const Plan& plan, s
   return plausible;
 }
 
-std::vector<Candidate> plausible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
+std::vector<Candidate> plausible_in_result(const sweeps::SweepResult& result, const sweeps::Plan& plan, std::size_t vessel,
                                            const TrialOptions& options) {
-  const Variable &score = *result.find("score"), *plausible = result.find("plausible");
+  const sweeps::Variable &score = *result.find("score"), *plausible = result.find("plausible");
   const std::vector<std::uint64_t> numbers = looked_at(plan.grips(), options.most_looked, vessel, options.seed);
   std::vector<Candidate> found;
   std::vector<double> scores(READ_AT_ONCE), is_plausible(READ_AT_ONCE, 0);
@@ -142,8 +143,9 @@ std::vector<Candidate> plausible_in_result(const SweepResult& result, const Plan
   return found;
 }
 
-PartedByDepth parted_by_depth(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core, std::size_t vessel,
-                              const std::vector<Candidate>& eligible, const TrialOptions& options, const std::atomic<bool>& stop) {
+PartedByDepth parted_by_depth(const Scene& scene, const sweeps::Plan& plan, std::shared_ptr<const Evaluator> core,
+                              std::size_t vessel, const std::vector<Candidate>& eligible, const TrialOptions& options,
+                              const std::atomic<bool>& stop) {
   if (eligible.empty()) return {};
   CoreBackend backend(std::move(core), scene, make_field_set({FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH}, scene), Precision::full,
                       options.threads);
@@ -175,29 +177,30 @@ std::vector<Candidate> sample_of_parts(const PartedByDepth& parts, std::size_t c
   return chosen;
 }
 
-std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
+std::vector<Candidate> best_different(const Scene& scene, const sweeps::Plan& plan, const Evaluator& core, std::size_t vessel,
                                       const std::vector<Candidate>& plausible, const TrialOptions& options,
                                       const std::atomic<bool>& stop) {
   const double apart = scene.output.apart;
-  const std::size_t candidates = robust_candidates(scene, options.best);
-  ListChooser chooser(plan, &core, vessel, {candidates, apart, usual_pool(plan, candidates, apart), options.threads});
+  const std::size_t candidates = sweeps::robust_candidates(scene, options.best);
+  sweeps::ListChooser chooser(plan, &core, vessel,
+                              {candidates, apart, sweeps::usual_pool(plan, candidates, apart), options.threads});
   std::vector<Candidate> held = plausible;
   if (has_effort(scene)) std::erase_if(held, [](const Candidate& one) { return !(one.score > 0); });  // 0: it does not hold
   while (!chooser.is_complete()) {
     chooser.offer(held);
     chooser.end_pass();
   }
-  std::vector<std::vector<BestGrip>> lists(scene.vessels.size() * plan.hand_scales());
+  std::vector<std::vector<sweeps::BestGrip>> lists(scene.vessels.size() * plan.hand_scales());
   for (std::size_t scale = 0; scale < plan.hand_scales(); ++scale)
     for (const Candidate& one : chooser.progress()[scale].chosen)
-      lists[vessel * plan.hand_scales() + scale].push_back(bare_grip(plan, vessel, one));
-  const OpenBackend open = [&](const Scene& other, const FieldSet& fields) {
+      lists[vessel * plan.hand_scales() + scale].push_back(sweeps::bare_grip(plan, vessel, one));
+  const sweeps::OpenBackend open = [&](const Scene& other, const FieldSet& fields) {
     return std::make_unique<CoreBackend>(make_core_evaluator(other), other, fields, Precision::full, options.threads);
   };
-  if (!rank_robustly(open, scene, plan, options.best, &stop, lists)) return {};
+  if (!sweeps::rank_robustly(open, scene, plan, options.best, &stop, lists)) return {};
   std::vector<Candidate> best;
   for (const auto& list : lists)
-    for (const BestGrip& one : list) best.push_back(one.candidate);
+    for (const sweeps::BestGrip& one : list) best.push_back(one.candidate);
   return best;
 }
 

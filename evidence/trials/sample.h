@@ -46,9 +46,9 @@ std::vector<std::uint64_t> looked_at(std::uint64_t grips, std::size_t most, std:
 // Feasible, plausible grips of a vessel with their scores, among those that are considered: by the core in double precision, so that they are the
 // same on every machine, or from a result. Those that do not hold are also tried, with a score of 0; a result without `plausible` has only the
 // others. Empty if `stop` is set.
-std::vector<Candidate> plausible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
+std::vector<Candidate> plausible_by_core(const Scene& scene, const sweeps::Plan& plan, std::shared_ptr<const Evaluator> core,
                                          std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop);
-std::vector<Candidate> plausible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
+std::vector<Candidate> plausible_in_result(const sweeps::SweepResult& result, const sweeps::Plan& plan, std::size_t vessel,
                                            const TrialOptions& options);
 
 // One of this many grips of a stratified sample begins too deep in the vessel to be tried.
@@ -58,15 +58,16 @@ constexpr std::size_t DEEP_ONE_OF = 5;
 struct PartedByDepth {
   std::vector<Candidate> usual, deep;  // deep: by more than the overlap at which a trial is discarded
 };
-PartedByDepth parted_by_depth(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core, std::size_t vessel,
-                              const std::vector<Candidate>& eligible, const TrialOptions& options, const std::atomic<bool>& stop);
+PartedByDepth parted_by_depth(const Scene& scene, const sweeps::Plan& plan, std::shared_ptr<const Evaluator> core,
+                              std::size_t vessel, const std::vector<Candidate>& eligible, const TrialOptions& options,
+                              const std::atomic<bool>& stop);
 
 // A stratified sample of each part. One of DEEP_ONE_OF grips is a deep one, and more only if there are too few usual ones, so that the share of
 // discarded grips does not depend on the score's weight of depth.
 std::vector<Candidate> sample_of_parts(const PartedByDepth& parts, std::size_t count, std::size_t vessel, std::uint64_t seed);
 
 // The best different holding ones of plausible grips, as a sweep lists them, one hand scale after the other. Empty if `stop` is set.
-std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
+std::vector<Candidate> best_different(const Scene& scene, const sweeps::Plan& plan, const Evaluator& core, std::size_t vessel,
                                       const std::vector<Candidate>& plausible, const TrialOptions& options,
                                       const std::atomic<bool>& stop);
 
@@ -76,9 +77,9 @@ std::size_t remove_impossible(const Evaluator& core, std::vector<TrialGrip>& gri
 // The source of scores: the core, or a result with its own lists. The result is in use with scene and plan.
 struct GripSourceOfTrials {
   const Scene& scene;
-  const Plan& plan;
+  const sweeps::Plan& plan;
   std::shared_ptr<const Evaluator> core;
-  const SweepResult* result = nullptr;
+  const sweeps::SweepResult* result = nullptr;
 };
 
 // All grips to try: of each vessel the best, then the others. A listed grip is not also in the stratified sample. Leaves out chosen grips of a result

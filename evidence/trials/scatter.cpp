@@ -20,8 +20,8 @@ Placement placement_of(const std::vector<TrialOutcome>& outcomes) {
 }  // namespace
 
 GripScatter::GripScatter(const Scene& scene, const TrialSettings& settings, const OpenTrialEngine& open)
-    : robust_(*scene.robust), ranking_(deviations(*scene.robust)) {
-  for (const double friction : robust_frictions(scene)) {
+    : robust_(*scene.robust), ranking_(sweeps::deviations(*scene.robust)) {
+  for (const double friction : sweeps::robust_frictions(scene)) {
     auto level = std::make_unique<Level>(Level{scene, nullptr, nullptr});
     level->scene.force.friction = friction;
     level->core = make_core_evaluator(level->scene);
@@ -42,9 +42,9 @@ std::vector<Placement> GripScatter::place(const TrialGrip& grip, const std::vect
   own.count = static_cast<int>(count);
   own.seed = mixed_bits(grip_key(seed, grip.vessel, grip.number));
   std::vector<Placement> placements;
-  for (const Deviation& deviation : deviations(own)) {
+  for (const sweeps::Deviation& deviation : sweeps::deviations(own)) {
     const Level& level = level_of(placements.size(), count);
-    const GripInput moved = deviated(grip.grip, deviation);
+    const GripInput moved = sweeps::deviated(grip.grip, deviation);
     GripResult found;
     level.core->grip(grip.vessel, moved, found);
     const bool is_possible = found.reason == Reason::none && found.plausible;
@@ -53,12 +53,12 @@ std::vector<Placement> GripScatter::place(const TrialGrip& grip, const std::vect
   return placements;
 }
 
-RobustScore GripScatter::robust(const TrialGrip& grip) const {
+sweeps::RobustScore GripScatter::robust(const TrialGrip& grip) const {
   std::vector<double> scores;
   std::size_t held = 0;
-  for (const Deviation& deviation : ranking_) {
+  for (const sweeps::Deviation& deviation : ranking_) {
     const Evaluator& core = *level_of(scores.size(), ranking_.size()).core;
-    const GripInput moved = deviated(grip.grip, deviation);
+    const GripInput moved = sweeps::deviated(grip.grip, deviation);
     GripResult found;
     core.grip(grip.vessel, moved, found);
     const bool is_possible = found.reason == Reason::none && found.plausible;
@@ -66,7 +66,7 @@ RobustScore GripScatter::robust(const TrialGrip& grip) const {
     scores.push_back(score.score);
     held += is_possible && !score.not_held ? 1 : 0;
   }
-  return robust_score(scores, held);
+  return sweeps::robust_score(scores, held);
 }
 
 }  // namespace wholehand

@@ -28,7 +28,7 @@ class GripScatter {
                                std::uint64_t seed) const;
 
   // A grip's score over the deviations by which a sweep ranks it.
-  RobustScore robust(const TrialGrip& grip) const;
+  sweeps::RobustScore robust(const TrialGrip& grip) const;
 
  private:
   // The scene with one of the frictions.
@@ -40,7 +40,7 @@ class GripScatter {
   const Level& level_of(std::size_t deviation, std::size_t count) const;
 
   RobustData robust_;
-  std::vector<Deviation> ranking_;  // of a sweep
+  std::vector<sweeps::Deviation> ranking_;  // of a sweep
   std::vector<std::unique_ptr<Level>> levels_;
 };
 

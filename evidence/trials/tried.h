@@ -17,7 +17,7 @@ struct GripFinding {
   GripPrediction prediction;
   std::vector<TrialOutcome> outcomes;
   std::vector<Placement> placements;
-  RobustScore robust;
+  sweeps::RobustScore robust;
 };
 
 struct TriedGrips {

@@ -30,7 +30,7 @@ int main() {
   const Scene scene = read_scene_file(find_scene("three_beakers"));
   const auto evaluator = make_core_evaluator(scene);
   constexpr double APART = 25e-3;  // m
-  DifferentGrips list(3, APART);
+  sweeps::DifferentGrips list(3, APART);
   // a grip each millimeter up the glass: nearly all are twins of the one before
   for (std::uint64_t number = 0; number < 60 && !list.is_full(); ++number) {
     list.offer({0, number}, evaluator->posed(0, at_height(number)));

@@ -9,7 +9,7 @@
 int main() {
   using namespace wholehand;
   const Scene scene = read_scene_file(find_scene("small"));
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   std::printf("%llu grips are evaluated, and %llu are stored\n", static_cast<unsigned long long>(plan.grips()),
               static_cast<unsigned long long>(plan.stored_grips()));
   for (std::uint64_t number = 0; number < 4; ++number) {

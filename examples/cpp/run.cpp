@@ -9,7 +9,7 @@
 
 int main() {
   using namespace wholehand;
-  const ExitCode code = run_sweep(read_scene_file(find_scene("small")), {.output = "swept.nc", .on = "core"});
+  const ExitCode code = sweeps::run_sweep(read_scene_file(find_scene("small")), {.output = "swept.nc", .on = "core"});
   std::printf("swept.nc has %llu bytes\n", static_cast<unsigned long long>(std::filesystem::file_size("swept.nc")));
   return code == ExitCode::done ? 0 : 1;
 }

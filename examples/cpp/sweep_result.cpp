@@ -8,9 +8,9 @@
 
 int main() {
   using namespace wholehand;
-  SweepResult result("swept.nc");
+  sweeps::SweepResult result("swept.nc");
   const Scene scene = parse_scene(result.origin().scene, "swept.nc");  // the file has the scene's text
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   result.use(scene, plan);
   std::vector<double> scores(plan.stored_grips());
   result.read(*result.find("score"), 0, 0, 0, scores.size(), scores.data());

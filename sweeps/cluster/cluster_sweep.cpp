@@ -42,7 +42,7 @@
 #include "sweeps/run/sweep.h"
 #include "sweeps/run/sweep_state.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double REPORT_SHARE = 1.0 / 64;  // of the time so far: what a crash may cost, and each report takes a line in the mark
@@ -314,8 +314,8 @@ class ClusterSweep {
   // ---- what all do together ----
 
   // Does the work on each rank. All ranks throw an Error of any of them.
-  void agree(const std::function<void()>& work) { wholehand::agree(team_, caught(work)); }
-  void share_error(const std::optional<Error>& known) { wholehand::share_error(team_, known); }
+  void agree(const std::function<void()>& work) { sweeps::agree(team_, caught(work)); }
+  void share_error(const std::optional<Error>& known) { sweeps::share_error(team_, known); }
 
   bool share_flag(bool from_leader) { return share_value(team_, from_leader); }
 
@@ -1246,4 +1246,4 @@ ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene,
   return run_on(chosen, team, scene, own, parts, interrupt);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

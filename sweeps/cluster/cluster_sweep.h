@@ -10,7 +10,7 @@
 #include "sweeps/cluster/team.h"
 #include "sweeps/run/sweep_options.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Does what run_sweep does, shared among any number of ranks. The file is the same byte for byte, except times and names of devices, and so are lists
 // and text. Every rank calls it. Rank 0 prints. If a rank fails, all ranks throw its error, with the line on rank 0 alone (the others' is empty).
@@ -25,4 +25,4 @@ ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& o
 // For a rank that ends early, instead: the others, which wait for it, end with this error.
 void leave_cluster_sweep(Team& team, const Error& error);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 class PacketWriter {
  public:
@@ -74,4 +74,4 @@ class PacketReader {
   std::size_t place_ = 0;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

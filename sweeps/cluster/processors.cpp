@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 std::vector<int> deal_processors(const std::vector<std::vector<bool>>& allowed) {
   std::vector<std::vector<std::size_t>> ranks_of(allowed.empty() ? 0 : allowed.front().size());
@@ -23,4 +23,4 @@ std::vector<int> deal_processors(const std::vector<std::vector<bool>>& allowed) 
   return dealt;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -17,7 +17,7 @@
 #include "base/text/error.h"
 #include "sweeps/cluster/processors.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr int MESSAGE_TAG = 1;
@@ -295,4 +295,4 @@ void Team::stop_counter() {
 
 std::unique_ptr<OutputBytes> Team::open_output(const std::string& path) { return std::make_unique<MpiFile>(path); }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

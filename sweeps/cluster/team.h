@@ -11,7 +11,7 @@
 #include "base/text/error.h"
 #include "sweeps/result/output_bytes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // One object per process, on its main thread, from MPI_Init to MPI_Finalize. An error within MPI ends the job in MPI's way. Rank 0 leads: all others
 // send to it, and only it sends to all.
@@ -81,4 +81,4 @@ class Team {
   std::list<Arriving> arriving_;  // to rank 0, in the order in which they were found
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

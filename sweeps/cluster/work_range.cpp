@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::uint64_t LEAST = 1024;       // grips: what a device takes as a first chunk
@@ -44,4 +44,4 @@ void PieceSize::done(std::uint64_t grips, double seconds) {
   if (grips > 0 && seconds > 0) rate_ = static_cast<double>(grips) / seconds;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

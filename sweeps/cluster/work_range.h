@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Grips [first, last) of a vessel.
 struct GripRange {
@@ -46,4 +46,4 @@ class PieceSize {
   double rate_ = 0;  // grips a second
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double MOST_STEPS = 4096;  // of a raster, in either direction
@@ -119,4 +119,4 @@ std::vector<std::vector<Flat>> DepthMap::borders() const {
   return borders;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 using Flat = std::array<double, 2>;  // a point in a view or on a sheet: to the right, and up or down as noted there
 
@@ -43,4 +43,4 @@ class DepthMap {
   std::vector<float> depths_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

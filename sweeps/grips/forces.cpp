@@ -9,7 +9,7 @@
 #include "base/charts/colors.h"
 #include "sweeps/grips/states.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double PAPER_ARROW = 15;      // mm, the largest force
@@ -80,4 +80,4 @@ std::string DrawnForces::style(double line) {
                      color_text(okabe_ito::GREEN), 1.6 * line);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include "sweeps/grips/report.h"
 #include "sweeps/grips/view.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Lengths and places are mm of the vessel; `unit`: mm of the vessel per mm of paper.
 class DrawnForces {
@@ -38,4 +38,4 @@ class DrawnForces {
   std::string words_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

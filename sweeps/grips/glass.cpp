@@ -10,7 +10,7 @@
 #include "core/load.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double CORNER_COSINE = 0.985;  // 10 degrees: sharper edges of the glass are drawn across it
@@ -184,4 +184,4 @@ void DrawnGlass::draw(std::string& svg, const DrawnView& view) const {
   if (!prepared_.cavity.empty()) draw_cavity(svg, view);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include "core/prepare.h"
 #include "sweeps/grips/view.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 class DrawnGlass {
  public:
@@ -37,4 +37,4 @@ class DrawnGlass {
   MeshEdges edges_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -20,7 +20,7 @@
 #include "sweeps/grips/mesh.h"
 #include "sweeps/grips/states.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double LEAST_DRAWN_RADIUS = 1.5e-3;  // m
@@ -305,4 +305,4 @@ std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& r
   return glb.bytes();
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -7,7 +7,7 @@
 
 #include "sweeps/grips/report.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The number of flat faces around the glass and other round surfaces.
 constexpr int GLB_SEGMENTS = 64;
@@ -29,4 +29,4 @@ inline constexpr std::string_view GRIP_GLB_MARK = "\"generator\":\"wholehand";
 // Throws Error: (usage) where the grip is not feasible, (failure) where the vessel's mesh has not been read.
 std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& report, int segments = GLB_SEGMENTS);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -11,7 +11,7 @@
 #include "core/vectors.h"
 #include "shaders/layout.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using core_f64::Mat3;
@@ -91,4 +91,4 @@ Quaternion relative_rotation(const HandNode& parent, const Quaternion& rotation)
   return to_quaternion(glm::normalize(glm::conjugate(to_quat(parent.rotation)) * to_quat(rotation)));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

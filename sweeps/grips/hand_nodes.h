@@ -10,7 +10,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // A joint of the hand in the vessel frame. Its rotation is OpenXR's, for either hand: +z along the bone away from the tip, +y out of the back of the
 // hand (for a thumb: of its nail); a tip has the rotation of the bone that it ends. A joint's bone runs to the finger's next joint, along -z.
@@ -39,4 +39,4 @@ HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Tr
 Triple relative_position(const HandNode& parent, const Triple& position);
 Quaternion relative_rotation(const HandNode& parent, const Quaternion& rotation);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -10,7 +10,7 @@
 #include "core/load.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using core_f64::ContactPoint;
@@ -102,4 +102,4 @@ std::optional<GripHold> Holding::over_states() const {
   return hold;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -10,7 +10,7 @@
 #include "core/force.h"
 #include "sweeps/grips/methods.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // One contact of the hand, with its force. Vessel frame; force on the vessel.
 struct HeldContact {
@@ -57,4 +57,4 @@ class Holding {
   core_f64::Vec3 center_{};  // of the contacts
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr int HULL_DIMENSION = 6;
@@ -85,4 +85,4 @@ std::optional<Hull> hull_of(std::vector<Point6> points, const Point6& apex) {
   return hull;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

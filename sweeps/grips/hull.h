@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 using Point6 = std::array<double, 6>;
 
@@ -26,4 +26,4 @@ struct Hull {
 // nothing.
 std::optional<Hull> hull_of(std::vector<Point6> points, const Point6& apex);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

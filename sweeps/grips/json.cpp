@@ -8,7 +8,7 @@
 #include "shaders/layout.h"
 #include "sweeps/grips/report.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -171,4 +171,4 @@ std::string grip_json(const GripReport& report) {
   return json_text(json);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include "core/mesh_body.h"
 #include "sweeps/grips/mesh_surface.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using Point2 = std::array<double, 2>;  // (r, y), m
@@ -337,4 +337,4 @@ SurfaceMesh capsule_mesh(double length, double near, double far, int segments) {
   return mesh;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include "core/result.h"
 #include "sweeps/grips/surface.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // An outline turned about +y: `segments` flat faces around (a multiple of 4 touches the largest extents along x and z), arcs in steps of the same
 // angle. Corners lie on the surface, so that all errors fall with the square of `segments`.
@@ -29,4 +29,4 @@ SurfaceMesh ball_mesh(int segments);
 // Rounded cone, the hull of two balls: radius `near` m at the origin and `far` m at `length` m along -z.
 SurfaceMesh capsule_mesh(double length, double near, double far, int segments);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -7,7 +7,7 @@
 
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double EDGE_ON = 1e-6;      // cosine between a triangle's normal and the view: seen from its side
@@ -243,4 +243,4 @@ MeshLines MeshView::lines() const {
   return lines;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

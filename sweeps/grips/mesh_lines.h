@@ -6,7 +6,7 @@
 #include "core/meshes/edges.h"
 #include "sweeps/grips/depth_map.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Points right and up in the view, m.
 struct MeshLines {
@@ -49,4 +49,4 @@ constexpr std::size_t MOST_LINE_POINTS = 8000;
 std::vector<Flat> simplified(const std::vector<Flat>& line, double tolerance);
 std::vector<Flat> simplified_loop(const std::vector<Flat>& loop, double tolerance);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -10,7 +10,7 @@
 #include "core/meshes/edges.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Corners of triangles, 3 t + k, in sets that share a position of the surface.
@@ -77,4 +77,4 @@ SurfaceMesh mesh_surface(const MeshBody& body) {
   return surface;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

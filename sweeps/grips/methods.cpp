@@ -15,7 +15,7 @@
 #include "core/gather.h"
 #include "host/open_backend.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // At each of the fills that are asked for, how many of the tilts count.
@@ -253,4 +253,4 @@ GripMethods open_grip_methods(const Scene& scene, const std::string& on, Precisi
   return methods;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

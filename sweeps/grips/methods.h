@@ -11,7 +11,7 @@
 #include "core/backend.h"
 #include "core/evaluator.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // One fill (fraction of the capacity; 0 if the scene has no liquid) and tilt (rad) of a grip, with its results.
 struct GripState {
@@ -67,4 +67,4 @@ GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open);
 // Chooses by the user's name, as for open_backend: "core" is called directly, everything else through its planes.
 GripMethods open_grip_methods(const Scene& scene, const std::string& on, Precision precision);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

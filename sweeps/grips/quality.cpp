@@ -11,7 +11,7 @@
 #include "core/vectors.h"
 #include "sweeps/grips/hull.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using core_f64::ContactPoint;
@@ -255,4 +255,4 @@ GripQuality grip_quality(const Scene& scene, const Evaluator& evaluator, std::si
   return quality;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

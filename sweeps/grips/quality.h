@@ -9,7 +9,7 @@
 #include "core/effort.h"
 #include "core/evaluator.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The set W of the wrenches (force, moment / scale) of all contacts whose normal forces add up to at most 1, each in its exact cone (kernel 10).
 // Each pair is a bracket of the true number.
@@ -41,4 +41,4 @@ struct GripQuality {
 GripQuality grip_quality(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result,
                          std::size_t most_facets = MOST_FACETS);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -8,7 +8,7 @@
 #include "core/mesh_body.h"
 #include "core/vectors.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double COINCIDENT = 1e-6;  // m
@@ -82,4 +82,4 @@ GripInput grip_through(const Triple& thumb, const Triple& index, double roll, do
   return grip;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

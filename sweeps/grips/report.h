@@ -8,7 +8,7 @@
 #include "sweeps/grips/methods.h"
 #include "sweeps/grips/quality.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The request and its results.
 struct GripReport {
@@ -70,4 +70,4 @@ Triple pour_direction(const Scene& scene, const GripInput& grip);
 // unit(d x y): offset = thumb . e, height = the line's y there. Throws Error (usage) if the points coincide or lie above one another.
 GripInput grip_through(const Triple& thumb, const Triple& index, double roll, double hand_scale);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

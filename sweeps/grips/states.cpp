@@ -13,7 +13,7 @@
 #include "core/effort.h"
 #include "core/planes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 const std::array<PointStyle, 3> POINT_STYLES{
     {{"touching", okabe_ito::VERMILION}, {"projected", okabe_ito::BLUE}, {"free", {255, 255, 255}}}};
@@ -74,4 +74,4 @@ std::string share_text(const Scene& scene, double fill) {
                       : "empty";
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -10,7 +10,7 @@
 #include "base/charts/colors.h"
 #include "sweeps/grips/report.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 enum class PointState { touching, projected, free };
 
@@ -46,4 +46,4 @@ std::string share_text(const Scene& scene, double fill);
 // no other state exists.
 std::optional<std::size_t> hardest_state(const GripReport& report);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

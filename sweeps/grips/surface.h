@@ -7,7 +7,7 @@
 
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 struct SurfaceMesh {
   std::vector<Triple> positions;
@@ -15,4 +15,4 @@ struct SurfaceMesh {
   std::vector<std::uint32_t> triangles;  // three positions each
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -20,7 +20,7 @@
 #include "sweeps/grips/hand_nodes.h"
 #include "sweeps/grips/states.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double PAPER_WIDTH = 180;    // mm, at most
@@ -384,4 +384,4 @@ std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& r
   return svg + "</svg>\n";
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

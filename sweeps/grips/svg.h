@@ -7,7 +7,7 @@
 
 #include "sweeps/grips/report.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Identifies drawings made by this program.
 inline constexpr std::string_view GRIP_SVG_MARK = "<title id=\"title\">Grip of ";
@@ -20,4 +20,4 @@ inline constexpr std::string_view GRIP_SVG_MARK = "<title id=\"title\">Grip of "
 // more. Throws Error: (usage) the grip is not feasible; (failure) the vessel's mesh has not been read.
 std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& report);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

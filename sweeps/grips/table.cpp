@@ -12,7 +12,7 @@
 #include "sweeps/grips/report.h"
 #include "sweeps/grips/states.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // `digits` behind the point, or what is known where lengths are known to `report.length_error`: what lengths enter has no more.
@@ -315,4 +315,4 @@ std::string grip_table(const GripReport& report) {
   return text;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

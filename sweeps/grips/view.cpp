@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 std::string number_text(double value) { return fmt::format("{:.2f}", std::abs(value) < 0.005 ? 0 : value); }
 std::string point_text(const Flat& p) { return number_text(p[0]) + " " + number_text(p[1]); }
@@ -14,4 +14,4 @@ void draw_line(std::string& svg, const Flat& a, const Flat& b, const char* style
   svg += fmt::format("<path class=\"{}\" d=\"M{}L{}\"/>\n", style, point_text(a), point_text(b));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

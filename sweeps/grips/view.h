@@ -8,7 +8,7 @@
 #include "core/vectors.h"
 #include "sweeps/grips/mesh_lines.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // An orthographic view: unit vectors of the vessel frame, and its origin's place on the sheet, mm to the right and mm down.
 struct DrawnView {
@@ -27,4 +27,4 @@ std::string number_text(double value);  // mm, two decimals
 std::string point_text(const Flat& p);
 void draw_line(std::string& svg, const Flat& a, const Flat& b, const char* style);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -18,7 +18,7 @@
 #include "sweeps/grips/report.h"
 #include "sweeps/plan/variables.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
@@ -264,4 +264,4 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   return table;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

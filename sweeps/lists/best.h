@@ -12,7 +12,7 @@
 #include "core/backend.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The first characters of best_csv's table.
 inline constexpr std::string_view BEST_CSV_START = "vessel,rank,height_mm,";
@@ -108,4 +108,4 @@ struct ListView {
 // list's criterion, the axes, and as much of the rest as fits.
 std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, const ListView& view);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

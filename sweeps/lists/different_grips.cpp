@@ -6,7 +6,7 @@
 
 #include "core/joints.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr int SORTED_BY = finger_start(2) + 1;  // joint by whose cell hands are found: any one would do
@@ -56,4 +56,4 @@ void DifferentGrips::offer(const Candidate& candidate, const std::optional<Posed
   if (hand && apart_ > 0) hands_[cell_of(*hand)].push_back(*hand);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -12,7 +12,7 @@
 #include "core/backend.h"
 #include "core/result.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Whether some joint of one posed hand is more than `apart` (m) away from the same joint of the other. A grip without a hand, infeasible on the core,
 // differs from every other. With `apart` 0 any two grips differ.
@@ -39,4 +39,4 @@ class DifferentGrips {
   std::map<Cell, std::vector<PosedHand>> hands_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -5,7 +5,7 @@
 
 #include "shaders/status.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 void add_eligible(const PlaneChunk& chunk, const FieldSet& fields, std::vector<Candidate>& eligible) {
   for (std::size_t i = 0; i < chunk.count; ++i)
@@ -44,4 +44,4 @@ std::vector<Candidate> HandLists::all() const {
   return all;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

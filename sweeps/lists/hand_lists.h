@@ -9,7 +9,7 @@
 #include "core/candidates.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Adds the eligible grips (shaders/status.h) of a chunk whose score and status are kept.
 void add_eligible(const PlaneChunk& chunk, const FieldSet& fields, std::vector<Candidate>& eligible);
@@ -35,4 +35,4 @@ class HandLists {
   std::vector<std::size_t> hands_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

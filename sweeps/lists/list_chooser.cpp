@@ -6,7 +6,7 @@
 
 #include "base/numbers/parallel.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::size_t USUAL_POOL = 1 << 14;     // of a vessel: 256 KiB
@@ -131,4 +131,4 @@ std::vector<Candidate> ListChooser::chosen() const {
   return all;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -12,7 +12,7 @@
 #include "sweeps/lists/different_grips.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The state of a list between two passes.
 struct ListProgress {
@@ -83,4 +83,4 @@ class ListChooser {
   std::vector<BestCandidates> pools_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -10,7 +10,7 @@
 #include "core/planes.h"
 #include "shaders/status.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using Coordinates = std::array<double, REFINED_COORDINATES>;
@@ -128,4 +128,4 @@ bool refine_lists(const Evaluator& core, const Scene& scene, const Plan& plan, i
   return is_whole;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

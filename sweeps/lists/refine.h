@@ -12,7 +12,7 @@
 #include "sweeps/lists/best.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 constexpr int REFINED_COORDINATES = 5;  // height, azimuth, obliquity, roll, offset: the hand stays
 constexpr std::array<PlanPlace, REFINED_COORDINATES> REFINED_PLACES{PLACE_HEIGHT, PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_ROLL,
@@ -49,4 +49,4 @@ RefinedPlace search_box(const std::array<double, REFINED_COORDINATES>& start, co
 bool refine_lists(const Evaluator& core, const Scene& scene, const Plan& plan, int threads,
                   std::vector<std::vector<BestGrip>>& lists, const std::function<bool()>& is_asked_to_end = {});
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

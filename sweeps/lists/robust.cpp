@@ -20,7 +20,7 @@
 #include "shaders/status.h"
 #include "sweeps/grips/report.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::size_t PARTS = 8;  // of the deviations; those of one part have one friction
@@ -316,4 +316,4 @@ void add_held_share(GripReport& report, const Scene& scene, std::size_t vessel) 
   report.held_share = lists[own].front().robust.share;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

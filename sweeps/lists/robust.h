@@ -14,7 +14,7 @@
 #include "sweeps/lists/best.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 struct GripReport;  // sweeps/grips/report.h
 
@@ -72,4 +72,4 @@ std::unique_ptr<Backend> open_core_for(const Scene& scene, const FieldSet& field
 // Sets the share of the deviations of a report's grip that hold, by the core. Does nothing for an implausible grip, or without [robust].
 void add_held_share(GripReport& report, const Scene& scene, std::size_t vessel);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include "base/system/output.h"
 #include "core/capacity.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double NARROW = 10e-3;  // m of radius
@@ -34,4 +34,4 @@ void print_cavity_notes(const Scene& scene) {
   for (const std::string& line : cavity_notes(scene)) print_note(line);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

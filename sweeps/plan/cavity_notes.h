@@ -7,7 +7,7 @@
 
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // A line for each vessel whose cavity narrows below 10 mm of radius and widens again beneath, with the volume there. Throws Error (usage) for vessels
 // that cannot be prepared.
@@ -16,4 +16,4 @@ std::vector<std::string> cavity_notes(const Scene& scene);
 // The same on stderr, a line each.
 void print_cavity_notes(const Scene& scene);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 
 #include "base/text/text.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double ROUNDING = 1e-9;  // rad, or of a vessel's height
@@ -85,4 +85,4 @@ std::string edge_line(const std::vector<std::string>& axes) {
   return fmt::format("the best grip lies on the edge of {}; widen {}?", joined(axes, " and "), axes.size() == 1 ? "it" : "them");
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

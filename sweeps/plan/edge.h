@@ -9,7 +9,7 @@
 #include "core/backend.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The key of a scene's [grips] that an axis comes from: "roll_deg", "height_fraction".
 std::string axis_key(const PlanAxis& axis);
@@ -23,4 +23,4 @@ std::vector<std::string> edge_axes(const Scene& scene, const Plan& plan, std::si
 // "the best lies on the edge of roll_deg; widen it?"; empty if no axis is named.
 std::string edge_line(const std::vector<std::string>& axes);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

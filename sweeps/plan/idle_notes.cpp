@@ -4,7 +4,7 @@
 #include "base/text/text.h"
 #include "core/planes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 std::string idle_strength_note(const Scene& scene) {
   if (!scene.strength || scene.strength->place.empty() || !scene.tilts.empty()) return "";
@@ -45,4 +45,4 @@ std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::s
   return notes;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

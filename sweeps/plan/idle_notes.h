@@ -9,7 +9,7 @@
 #include "core/scene.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // A line on [strength] in a scene without [tilts]: no states exist whose effort could be found. Empty in other scenes.
 std::string idle_strength_note(const Scene& scene);
@@ -22,4 +22,4 @@ std::string unjudged_note(const Scene& scene, const Plan& plan);
 // revolution, and all of them if the sweep lists no grips (`best` is 0).
 std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::size_t best);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

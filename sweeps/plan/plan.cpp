@@ -11,7 +11,7 @@
 #include "core/planes.h"
 #include "shaders/layout.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Where the scene sets the number of grips.
@@ -220,4 +220,4 @@ GripInput Plan::grip(std::size_t vessel, std::uint64_t index) const {
   return grip;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

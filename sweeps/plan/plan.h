@@ -13,7 +13,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 constexpr double LARGEST_SWEEP = 1e11;        // largest number of grips of all vessels in one sweep
 constexpr std::size_t MOST_HAND_SCALES = 64;  // with a list of best grips each; more count as a range with one list
@@ -110,4 +110,4 @@ class Plan {
   std::vector<std::array<double, 2>> vessel_spans_;          // y of the lowest point and height above it, m
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

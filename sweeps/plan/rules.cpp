@@ -11,7 +11,7 @@
 #include "core/hand_size.h"
 #include "core/planes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // What distinguishes a hand from the default one beside scale and side.
@@ -128,4 +128,4 @@ std::string weights_text(const Scene& scene) {
   return joined(parts, ", ");
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -8,7 +8,7 @@
 
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 struct Rule {
   const char* name;
@@ -39,4 +39,4 @@ std::array<bool, RULE_COUNT> shared_rules(const Scene& a, const Scene& b);
 // Weights of the score's terms, without those of weight 0: "depth 0.69, force 0.13".
 std::string weights_text(const Scene& scene);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

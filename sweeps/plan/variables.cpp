@@ -13,7 +13,7 @@
 #include "core/fields.h"
 #include "shaders/layout.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr bool DEFAULT = true, ON_REQUEST = false;
@@ -373,4 +373,4 @@ bool is_kept(const FieldSet& fields, int field) {
   return fields.has(field) && fields.plane[field] < (field < REAL_FIELDS ? fields.real_kept : fields.uint_kept);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -10,7 +10,7 @@
 #include "core/planes.h"
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 enum class NumberType { real, byte, word };  // real: float or double with the backend's precision; signed 8 and 32 bits
 
@@ -75,4 +75,4 @@ double bytes_per_grip(const std::vector<const Variable*>& variables, const Scene
 // Whether the planes of `field` may be read from a backend's chunks.
 bool is_kept(const FieldSet& fields, int field);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -6,7 +6,7 @@
 #include "base/text/error.h"
 #include "core/capacity.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 std::vector<VesselFacts> vessel_facts(const Scene& scene, Backend& backend, const Evaluator& evaluator) {
   std::vector<VesselFacts> facts(scene.vessels.size());
@@ -27,4 +27,4 @@ std::vector<VesselFacts> vessel_facts(const Scene& scene, Backend& backend, cons
   return facts;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

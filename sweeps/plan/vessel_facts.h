@@ -7,7 +7,7 @@
 #include "core/backend.h"
 #include "core/evaluator.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Facts of a vessel that no grip changes.
 struct VesselFacts {
@@ -22,4 +22,4 @@ struct VesselFacts {
 // fills and tilts.
 std::vector<VesselFacts> vessel_facts(const Scene& scene, Backend& backend, const Evaluator& evaluator);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

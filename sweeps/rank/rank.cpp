@@ -25,7 +25,7 @@
 #include "sweeps/lists/robust.h"
 #include "sweeps/rank/unheld.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr const char* NEEDS_EFFORTS =
@@ -619,4 +619,4 @@ std::vector<MergedGrip> merged(std::vector<MergedGrip> grips, RankBy by, std::si
   return grips;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

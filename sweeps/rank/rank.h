@@ -14,7 +14,7 @@
 #include "sweeps/rank/where.h"
 #include "sweeps/result/grip_lists.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Weights of the six terms, in the order of effective_weights, from "fingers=0.2,depth=0.5"; unnamed ones are the scene's. In a scene without tilts,
 // whose weights are scaled to sum to 1, named weights are taken unchanged and the others scaled. Throws Error (usage) for a term that is unknown,
@@ -78,4 +78,4 @@ struct MergedGrip {
 // Ranks grips of several rankings `by` anew, at most `best` of them; ties keep their order.
 std::vector<MergedGrip> merged(std::vector<MergedGrip> grips, RankBy by, std::size_t best);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

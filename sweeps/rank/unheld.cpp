@@ -15,7 +15,7 @@
 #include "sweeps/grips/report.h"
 #include "sweeps/grips/states.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Rounded up at the third decimal, so that the stated value suffices.
@@ -116,4 +116,4 @@ std::string unheld_line(const Evaluator& core, const Scene& scene, const Plan& p
   return line + fmt::format(". {}{}{} would hold it", joined(ways, ", "), ways.empty() ? "" : " or ", last);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -10,7 +10,7 @@
 #include "sweeps/plan/plan.h"
 #include "sweeps/result/mark.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // What an unheld grip would need, by the core in double precision. A fill is in the order of the scene's, a tilt in rad.
 struct Unheld {
@@ -34,4 +34,4 @@ LeastBad with_least_friction(const Evaluator& core, const Scene& scene, const Pl
 // 1.74 times the strength, a friction of 0.912 (now 0.6) or tilts up to 30 deg would hold it". One line, without the vessel's name.
 std::string unheld_line(const Evaluator& core, const Scene& scene, const Plan& plan, std::size_t vessel, const LeastBad& nearest);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

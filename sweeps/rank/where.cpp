@@ -14,7 +14,7 @@
 #include "base/text/text.h"
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::size_t LARGEST_CONDITION = 4096;  // characters
@@ -381,4 +381,4 @@ bool Where::holds(int at, const double* values) const {
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 enum class WhereKind { number, truth, mask };  // truth: 0 or 1; mask: bits of a whole number
 enum class WhereUnit { own, mm, deg };         // of the numbers that a name is compared with; own: the value's unit
@@ -68,4 +68,4 @@ class Where {
   int root_ = -1;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -10,7 +10,7 @@
 #include "sweeps/result/grip_lists.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 BestGlb write_best_glb(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> evaluator,
                        const std::vector<std::vector<BestGrip>>& best, int count, const OutputNames& names) {
@@ -36,4 +36,4 @@ BestGlb write_best_glb(const Scene& scene, const Plan& plan, std::shared_ptr<con
   return written;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

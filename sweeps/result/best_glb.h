@@ -10,7 +10,7 @@
 #include "sweeps/lists/best.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 struct BestGlb {
   std::vector<std::string> files;  // as the closing lines name them: for each list the first, or the first and the last
@@ -24,4 +24,4 @@ struct BestGlb {
 BestGlb write_best_glb(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> evaluator,
                        const std::vector<std::vector<BestGrip>>& best, int count, const OutputNames& names);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -18,7 +18,7 @@
 #include "sweeps/result/mark.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 void check_best_glb(const Scene& scene, const Plan& plan, const OutputNames& names, int glb) {
   for (const std::string& part : list_file_parts(scene, plan)) {
@@ -54,4 +54,4 @@ void check_companions(const Scene& scene, const OutputNames& names, bool best, b
   if (glb > 0) check_best_glb(scene, Plan(scene, false), names, glb);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

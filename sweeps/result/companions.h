@@ -7,7 +7,7 @@
 #include "sweeps/plan/plan.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Whether NAME.best.csv exists and a sweep wrote it.
 bool is_best_list(const std::string& path);
@@ -19,4 +19,4 @@ void check_companions(const Scene& scene, const OutputNames& names, bool best, b
 // Only the glTF files, for commands that write nothing else: the first `glb` of each list of best grips.
 void check_best_glb(const Scene& scene, const Plan& plan, const OutputNames& names, int glb);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

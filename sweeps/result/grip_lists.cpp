@@ -20,7 +20,7 @@
 #include "core/meshes/vessel.h"
 #include "sweeps/result/heat_map_plot.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double LARGEST_LIST = 1 << 28;  // bytes: a million rows
@@ -182,4 +182,4 @@ GripLists read_grip_lists(const std::string& path, const SweepResult& result, co
   return ListReader(path, result, scene, plan).read();
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

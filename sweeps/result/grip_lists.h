@@ -10,7 +10,7 @@
 #include "sweeps/lists/best.h"
 #include "sweeps/result/sweep_result.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 struct RankedCandidate {
   std::size_t rank = 1;
@@ -40,4 +40,4 @@ GripLists lists_of_sweep(const SweepResult& result, const Scene& scene, const Pl
 // exist or occurs twice.
 GripLists read_grip_lists(const std::string& path, const SweepResult& result, const Scene& scene, const Plan& plan);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

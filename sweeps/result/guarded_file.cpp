@@ -18,7 +18,7 @@
 #include "base/text/error.h"
 #include "sweeps/result/guarded_server.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr int SILENT_SECONDS = 60;                    // after which the process is given up: a disk may be slow
@@ -154,4 +154,4 @@ void GuardedFile::read(const Stored& variable, std::span<const std::size_t> star
   take(out, values * sizeof(double));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

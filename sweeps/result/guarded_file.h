@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // HDF5 follows what a damaged file says to places that are not there: it crashes, never ends, or forgets memory, when the file is opened
 // and at any value that is read later. So a process that may die of it does all of that and hands over what it found. Its processor time
@@ -66,4 +66,4 @@ class GuardedFile {
   std::map<std::string, double> numbers_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

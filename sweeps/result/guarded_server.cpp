@@ -19,7 +19,7 @@
 
 #include "sweeps/result/result_checksums.h"
 
-namespace wholehand::guarded {
+namespace wholehand::sweeps::guarded {
 namespace {
 
 constexpr std::size_t VALUES_A_SECOND = 1 << 23;  // of a processor, at least; most answers take milliseconds
@@ -253,4 +253,4 @@ void CatalogueReader::copy(void* to, std::size_t size) {
   place_ += size;
 }
 
-}  // namespace wholehand::guarded
+}  // namespace wholehand::sweeps::guarded

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace wholehand::guarded {
+namespace wholehand::sweeps::guarded {
 
 constexpr std::size_t MOST_DIMENSIONS = 32;  // of a variable
 
@@ -51,4 +51,4 @@ class CatalogueReader {
   std::size_t place_ = 0;
 };
 
-}  // namespace wholehand::guarded
+}  // namespace wholehand::sweeps::guarded

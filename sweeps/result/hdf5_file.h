@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // An HDF5 identifier that closes itself.
 class Hdf5Handle {
@@ -33,4 +33,4 @@ inline hid_t open_hdf5(const std::string& path, unsigned mode) {
   return H5Fopen(path.c_str(), mode, access);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

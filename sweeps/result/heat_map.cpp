@@ -9,7 +9,7 @@
 #include "shaders/status.h"
 #include "sweeps/plan/variables.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double NO_GRIP = std::numeric_limits<double>::quiet_NaN();
@@ -72,4 +72,4 @@ void HeatMap::restore(const std::vector<double>& scores) {
   scores_ = scores;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include "core/planes.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Cells along one axis of a heat map. Each value of a grid has a cell, bounded halfway to its neighbors (more than LARGEST_MAP values share cells
 // evenly). A Sobol range is cut so that a cell of two such axes has 16 points on average.
@@ -54,4 +54,4 @@ class HeatMap {
   std::vector<double> height_values_, roll_values_;  // of a chunk
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

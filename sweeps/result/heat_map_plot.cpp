@@ -9,7 +9,7 @@
 #include "base/text/text.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double MAP_WIDTH = 480, MAP_HEIGHT = 280, MAP_SCALE = 1.5;  // units of the picture and of its cells; pixels a unit
@@ -140,4 +140,4 @@ std::vector<PictureFile> heat_map_files(const std::vector<HeatMapPicture>& pictu
   return files;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -11,7 +11,7 @@
 #include "sweeps/result/heat_map.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // One picture to draw.
 struct HeatMapPicture {
@@ -39,4 +39,4 @@ std::string file_name_part(const std::string& name);
 // The file name parts for all vessels; equal ones get a number.
 std::vector<std::string> file_name_parts(const Scene& scene);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -23,7 +23,7 @@
 #include "base/text/error.h"
 #include "base/text/readable.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using nlohmann::json;
@@ -286,4 +286,4 @@ void check_identity(const std::string& partial, const SweepMark& mark, const std
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -17,7 +17,7 @@
 #include "sweeps/lists/list_chooser.h"
 #include "sweeps/result/run_layout.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The plausible grip nearest to holding: the least worst effort, then the least friction needed, then the first grip.
 struct LeastBad {
@@ -121,4 +121,4 @@ bool has_structure(const std::string& partial, const SweepMark& mark);
 // Throws Error (usage) that names the first difference between the begun sweep and the requested one.
 void check_identity(const std::string& partial, const SweepMark& mark, const std::map<std::string, std::string>& identity);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 class OutputBytes {
  public:
@@ -21,4 +21,4 @@ class OutputBytes {
 // Opens an existing file. Throws Error (failure).
 using OpenOutput = std::function<std::unique_ptr<OutputBytes>(const std::string& path)>;
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 #include "base/text/error.h"
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 OutputNames output_names(const std::string& result) {
   OutputNames names;
@@ -41,4 +41,4 @@ void check_not_the_scene(const std::string& path, const Scene& scene, const char
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

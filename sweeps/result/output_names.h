@@ -6,8 +6,10 @@
 #include <string>
 
 namespace wholehand {
-
 struct Scene;
+}
+
+namespace wholehand::sweeps {
 
 // The files of a sweep: NAME.nc and its companions, from the name of the result file. If that is a symbolic link, temporary files lie beside the file
 // that it points to.
@@ -33,4 +35,4 @@ std::string default_output(const Scene& scene);
 // Throws Error (usage) if `path` is the scene file itself or one of its meshes, under any name.
 void check_not_the_scene(const std::string& path, const Scene& scene, const char* option = "-o");
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

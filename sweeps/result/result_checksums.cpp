@@ -16,7 +16,7 @@
 #include "base/text/text.h"
 #include "sweeps/result/hdf5_file.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::string_view START = "wholehand checksums 1 ";  // then the length and the checksum of what follows its line
@@ -198,4 +198,4 @@ void ResultChecksums::check_block(ChecksumPart& part, std::uint64_t block) {
   checksum.clear();
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

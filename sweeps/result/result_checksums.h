@@ -11,7 +11,7 @@
 
 #include "base/files/checksum.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 inline constexpr const char* CHECKSUMS = "checksums";        // the variable of characters, and its dimension
 inline constexpr std::uint64_t CHECKSUM_BLOCK = 1ull << 20;  // largest number of bytes with a checksum of their own
@@ -71,4 +71,4 @@ class ResultChecksums {
   std::map<std::string, std::vector<ChecksumPart>> parts_;  // by variable; a compared block has no checksum any more
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

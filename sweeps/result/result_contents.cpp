@@ -18,7 +18,7 @@
 #include "sweeps/plan/rules.h"
 #include "sweeps/result/result_definition.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double NOT_YET_KNOWN = std::numeric_limits<double>::quiet_NaN();
@@ -382,4 +382,4 @@ std::uint64_t result_size(ResultContents contents) {
 
 void define_result_file(const std::string& path, const ResultContents& contents) { SweepDefinition(path, contents).write(); }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -11,7 +11,7 @@
 #include "sweeps/plan/variables.h"
 #include "sweeps/plan/vessel_facts.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Everything in a result file except the grips' own values. Refers to the scene and the plan.
 struct ResultContents {
@@ -61,4 +61,4 @@ std::uint64_t result_size(ResultContents contents);
 // grips is one contiguous block, allocated and not filled. Throws Error (failure).
 void define_result_file(const std::string& path, const ResultContents& contents);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -14,7 +14,7 @@
 #include "base/text/text.h"
 #include "sweeps/plan/variables.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Bytes of a value in the file; for a text, a reference plus its heap's overhead.
@@ -182,4 +182,4 @@ void ResultDefinition::allocate(int id) {
   check(nc_put_var1(file_, id, last.data(), zero.data()));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

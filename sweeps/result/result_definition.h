@@ -13,7 +13,7 @@
 
 #include "sweeps/result/result_checksums.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The meanings of integers 0, 1 .., each one word. MISSING may stand for a missing value.
 struct IntegerCodes {
@@ -78,4 +78,4 @@ class ResultDefinition {
   std::vector<std::function<void()>> values_;   // written once the definition stands
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

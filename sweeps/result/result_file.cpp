@@ -23,7 +23,7 @@
 #include "sweeps/result/hdf5_file.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Adds the time of a scope to a sum.
@@ -436,4 +436,4 @@ void name_result(const OutputNames& names) {
   unlink(names.mark.c_str());
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -18,7 +18,7 @@
 #include "sweeps/result/result_contents.h"
 #include "sweeps/result/run_layout.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Where the values lie in the file, bytes from its start.
 struct FilePlaces {
@@ -88,7 +88,7 @@ class ResultFile {
   void drop_cached();
   // The checksum of a block of it (sweeps/result/result_checksums.h).
   std::string block_checksum(const ChecksumPart& part, std::uint64_t block) const {
-    return wholehand::block_checksum(file_, part, block);
+    return wholehand::sweeps::block_checksum(file_, part, block);
   }
   // Syncs, has the NetCDF library read the structure of the file, writes the checksums (parts with some known may be given), renames NAME.nc.partial
   // to NAME.nc, closes it and removes the mark. The last call.
@@ -136,4 +136,4 @@ class ResultFile {
 void check_readable(const OutputNames& names);
 void name_result(const OutputNames& names);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

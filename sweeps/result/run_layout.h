@@ -9,7 +9,7 @@
 
 #include "base/files/checksum.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // A variable's block: vessel by vessel, plane by plane, copy by copy, grip by grip.
 struct LayoutBlock {
@@ -44,4 +44,4 @@ struct RunLayout {
   }
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -15,7 +15,7 @@
 #include "base/text/error.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 std::string first_line(const std::string& id) { return std::string(SHARD_START) + id + "\n"; }
@@ -50,4 +50,4 @@ void make_shard(const std::string& path, const std::string& id, const RunLayout&
   write_whole_file(path, line, true);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -8,7 +8,7 @@
 #include "sweeps/result/output_names.h"
 #include "sweeps/result/run_layout.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The first characters of a shard; its sweep's identifier and a line end follow.
 inline constexpr std::string_view SHARD_START = "wholehand shard of sweep ";
@@ -29,4 +29,4 @@ std::string why_no_shard(const std::string& path);
 // layout leaves no room for its beginning.
 void make_shard(const std::string& path, const std::string& id, const RunLayout& layout);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

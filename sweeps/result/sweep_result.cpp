@@ -23,7 +23,7 @@
 #include "sweeps/result/output_names.h"
 #include "sweeps/result/result_contents.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::size_t AT_ONCE = 1 << 18;        // values
@@ -333,4 +333,4 @@ void set_heights(const SweepResult& result, Scene& scene) {
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

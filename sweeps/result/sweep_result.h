@@ -19,7 +19,7 @@
 #include "sweeps/result/guarded_file.h"
 #include "sweeps/result/result_checksums.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The file's data on the sweep as a whole.
 struct SweepOrigin {
@@ -116,4 +116,4 @@ class SweepResult {
 // Gives vessels with an unread mesh the heights that the file stores. Call before `use`.
 void set_heights(const SweepResult& result, Scene& scene);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -11,7 +11,7 @@
 #include "shaders/status.h"
 #include "sweeps/plan/variables.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 void count_grips(const PlaneChunk& chunk, const FieldSet& fields, double gate, GripCounts& counts) {
   counts.grips += chunk.count;
@@ -109,4 +109,4 @@ std::string short_counts_line(const GripCounts& counts, bool reasons_known, std:
                      parts.text().empty() ? "" : "; ", parts.text());
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

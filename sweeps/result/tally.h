@@ -5,7 +5,7 @@
 #include "core/planes.h"
 #include "sweeps/result/mark.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Adds the grips of a chunk to the counts. Without a kept FIELD_STATUS, only their number. `gate`: gate_tolerance of the vessel.
 void count_grips(const PlaneChunk& chunk, const FieldSet& fields, double gate, GripCounts& counts);
@@ -19,4 +19,4 @@ std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint6
 // efforts; otherwise the remaining ones are plausible.
 std::string short_counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths, bool judges_holding);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

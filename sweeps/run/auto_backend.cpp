@@ -18,7 +18,7 @@
 #include "sweeps/result/output_names.h"
 #include "sweeps/result/sweep_result.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 bool is_there(const std::string& path) {
@@ -27,7 +27,7 @@ bool is_there(const std::string& path) {
 }
 
 // Where the sweep of an unfinished or finished result ran. Nothing: there is no such result, or it does not say; resuming it reports what is wrong.
-std::optional<BackendChoice> origin_of(const OutputNames& names, const std::optional<Precision>& asked) try {
+std::optional<BackendChoice> begun_choice(const OutputNames& names, const std::optional<Precision>& asked) try {
   if (is_there(names.partial)) {
     SweepMark mark;
     if (!load_mark(names.mark, mark)) return std::nullopt;
@@ -124,7 +124,7 @@ BackendChoice choose_backend(const Scene& scene, const SweepOptions& options) {
   if (options.on != ON_AUTO) return named_backend(options.on, options.precision);
   if (options.resume) {
     const std::string output = options.output.empty() ? default_output(scene) : options.output;
-    if (const auto begun = origin_of(output_names(output), options.precision)) return *begun;
+    if (const auto begun = begun_choice(output_names(output), options.precision)) return *begun;
   }
   try {
     const std::vector<const Variable*> variables = choose_variables(scene);
@@ -153,4 +153,4 @@ BackendChoice with_core_fallback(const BackendChoice& choice, const SweepHooks& 
   return core;
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

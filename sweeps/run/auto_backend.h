@@ -14,7 +14,7 @@
 #include "sweeps/plan/variables.h"
 #include "sweeps/run/sweep_options.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 inline constexpr const char* ON_AUTO = "auto";
 
@@ -55,4 +55,4 @@ BackendChoice choose_backend(const Scene& scene, const SweepOptions& options);
 BackendChoice with_core_fallback(const BackendChoice& choice, const SweepHooks& hooks,
                                  const std::function<void(const BackendChoice&)>& work);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -14,7 +14,7 @@
 #include "sweeps/plan/edge.h"
 #include "sweeps/result/grip_lists.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double SURE_SHARE = 0.95;  // of the deviations of a grip, from which on its holding is sure
@@ -163,4 +163,4 @@ std::string backend_line(const BackendInfo& info, const SweepTimes& times, const
                      alternative);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

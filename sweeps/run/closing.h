@@ -11,7 +11,7 @@
 #include "sweeps/plan/plan.h"
 #include "sweeps/plan/vessel_facts.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // How the time of a sweep was spent, s. The rest of the wall time is everything else.
 struct SweepTimes {
@@ -54,4 +54,4 @@ std::string closing_lines(const std::vector<std::string>& files, const SweepTime
 // One sentence: the backend that `--on auto` chose, the sweep's time, and `alternative`, such as "; the core would take ..".
 std::string backend_line(const BackendInfo& info, const SweepTimes& times, const std::string& alternative);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -26,7 +26,7 @@
 #include "sweeps/result/tally.h"
 #include "sweeps/run/closing.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 class Ending {
@@ -211,4 +211,4 @@ void publish(const Sweep& sweep, SweepState& state, ResultFile& file, BestLists 
   Ending(sweep, state, file).publish(std::move(best), std::move(checksums));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

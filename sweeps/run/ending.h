@@ -9,7 +9,7 @@
 #include "sweeps/run/sweep.h"
 #include "sweeps/run/sweep_state.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // The candidates of each list, with only their places known.
 BestLists find_best(const Sweep& sweep, const SweepState& state);
@@ -20,4 +20,4 @@ bool choose_best(const Sweep& sweep, BestLists& best, InterruptGuard& interrupt)
 // Writes the files and prints the lists and the times, once everything is known. `checksums`: of the result, as far as ranks have found some.
 void publish(const Sweep& sweep, SweepState& state, ResultFile& file, BestLists best, ChecksumParts checksums = {});
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

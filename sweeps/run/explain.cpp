@@ -23,7 +23,7 @@
 #include "sweeps/lists/robust.h"
 #include "sweeps/plan/variables.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::uint64_t RUNS = 6;           // of each way; the first makes ready
@@ -427,4 +427,4 @@ std::string explain_sweep(const Scene& scene, const Plan& plan, const FieldSet& 
   return Explainer(scene, plan, fields, options).run();
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -7,7 +7,7 @@
 #include "core/backend.h"
 #include "sweeps/plan/plan.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 constexpr std::size_t EXPLAIN_GRIPS = 4096;
 
@@ -23,4 +23,4 @@ struct ExplainOptions {
 // Throws Error as open_backend does.
 std::string explain_sweep(const Scene& scene, const Plan& plan, const FieldSet& fields, const ExplainOptions& options);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -28,7 +28,7 @@
 #include "sweeps/result/result_file.h"
 #include "sweeps/result/shard.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::size_t AT_ONCE = std::size_t{1} << 20;         // bytes
@@ -226,4 +226,4 @@ class Merge {
 
 ExitCode merge_shards(const MergeRequest& request) { return Merge(request).run(); }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

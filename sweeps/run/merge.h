@@ -7,7 +7,7 @@
 
 #include "base/text/error.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 struct MergeRequest {
   std::string result;                // NAME.nc
@@ -21,4 +21,4 @@ struct MergeRequest {
 // process writes it; (failure) the sweep did not end, a shard is damaged, or the disk is full. NAME.nc.partial and the mark then stay.
 ExitCode merge_shards(const MergeRequest& request);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

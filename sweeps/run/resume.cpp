@@ -13,7 +13,7 @@
 #include "sweeps/result/sweep_result.h"
 #include "sweeps/run/code_id.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 void check_complete(const std::string& result, const Scene& scene, bool on_core, Precision precision,
                     const std::vector<const Variable*>& variables) {
@@ -80,4 +80,4 @@ std::string lost_line(const OutputNames& names) {
                      names.partial, counted(kept, "grip"));
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

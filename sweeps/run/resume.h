@@ -12,7 +12,7 @@
 #include "sweeps/result/mark.h"
 #include "sweeps/result/output_names.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Throws Error (usage) if a complete result belongs to another sweep than this, as far as that is known without a device.
 void check_complete(const std::string& result, const Scene& scene, bool on_core, Precision precision,
@@ -30,4 +30,4 @@ bool load_usable_mark(const OutputNames& names, const std::map<std::string, std:
 // A line about the grips of an earlier sweep that are computed again; empty if there are none.
 std::string lost_line(const OutputNames& names);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -26,7 +26,7 @@
 #include "sweeps/run/sweep.h"
 #include "sweeps/run/sweep_state.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double MARK_SHARE = 0.02;           // of the time, at most, for marks
@@ -281,4 +281,4 @@ ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const Backen
   return is_whole ? ExitCode::done : state.interrupted();
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

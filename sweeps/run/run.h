@@ -5,7 +5,7 @@
 #include "base/text/error.h"
 #include "sweeps/run/sweep_options.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv, NAME.<vessel>.svg and NAME.<vessel>.<rank>.glb; prints the device, the best grips
 // and counts of every vessel, and the times to stdout, notes and progress to stderr. Returns `done`, or `interrupted` after SIGINT or SIGTERM
@@ -15,4 +15,4 @@ ExitCode run_sweep(const Scene& scene, const SweepOptions& options);
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts);
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts);
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

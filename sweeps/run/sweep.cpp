@@ -27,7 +27,7 @@
 #include "sweeps/run/explain.h"
 #include "sweeps/run/resume.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 Sweep::Sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts, std::string who)
     : scene_(scene),
@@ -211,4 +211,4 @@ std::string Sweep::readable_stretch(const Stretch& stretch, std::size_t v) const
                      scene_.vessels[v].name);
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

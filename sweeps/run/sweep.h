@@ -20,7 +20,7 @@
 #include "sweeps/result/result_file.h"
 #include "sweeps/run/sweep_options.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 class Sweep {
  public:
@@ -121,4 +121,4 @@ class Sweep {
   std::vector<VesselFacts> facts_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

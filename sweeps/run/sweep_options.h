@@ -15,7 +15,7 @@
 #include "sweeps/lists/best.h"
 #include "sweeps/result/output_bytes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 // How a test, or another program that the sweep is part of, takes part.
 struct SweepHooks {
@@ -77,4 +77,4 @@ struct SweepParts {
   OpenOutput open_output = {};  // writes the values; empty: the system's own calls
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -12,7 +12,7 @@
 #include "shaders/layout.h"
 #include "sweeps/run/resume.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr off_t LONG_CHECK = 1'000'000'000;  // bytes of a partial file: from here on a note says that they are read
@@ -137,4 +137,4 @@ void SweepState::note_once(const std::vector<std::string>& notes, Progress* prog
   }
 }
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

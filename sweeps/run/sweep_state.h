@@ -17,7 +17,7 @@
 #include "sweeps/result/result_file.h"
 #include "sweeps/run/sweep.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 
 class SweepState {
  public:
@@ -62,4 +62,4 @@ class SweepState {
   std::set<std::string> noted_;
 };
 
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

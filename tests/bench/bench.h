@@ -62,10 +62,10 @@ std::unique_ptr<Evaluator> core_of(const Scene& scene, Precision precision);
 extern const std::vector<int> KEPT;
 
 // All grips of a vessel; `plan` must outlive it.
-RunRequest request_of(const Plan& plan, std::size_t vessel);
+RunRequest request_of(const sweeps::Plan& plan, std::size_t vessel);
 // All grips of the plan through a backend; returns their number.
-std::uint64_t run_all(Backend& backend, const Scene& scene, const Plan& plan);
+std::uint64_t run_all(Backend& backend, const Scene& scene, const sweeps::Plan& plan);
 // Over the masks of a full run, whatever its chunks: two lines with one hash found the same contacts. 52 bits.
-double hash_all(Backend& backend, const Scene& scene, const Plan& plan);
+double hash_all(Backend& backend, const Scene& scene, const sweeps::Plan& plan);
 
 }  // namespace wholehand::bench

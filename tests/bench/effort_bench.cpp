@@ -74,7 +74,7 @@ void effort_grip(benchmark::State& state) {
 }
 
 // Seconds in kernels of all grips of a plan.
-double kernel_seconds(Backend& backend, const Scene& scene, const Plan& plan) {
+double kernel_seconds(Backend& backend, const Scene& scene, const sweeps::Plan& plan) {
   double seconds = 0;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     RunRequest request = request_of(plan, v);
@@ -91,7 +91,7 @@ struct Way {
 };
 
 std::unique_ptr<Backend> backend_of(const Way& way, const Options& options) {
-  const FieldSet fields = make_field_set(variable_fields(choose_variables(way.scene)), way.scene);
+  const FieldSet fields = make_field_set(sweeps::variable_fields(sweeps::choose_variables(way.scene)), way.scene);
   if (way.on_core) return std::make_unique<CoreBackend>(make_core_evaluator(way.scene), way.scene, fields, Precision::full, 0);
   host::GripBackendOptions on_device;
   on_device.precision = Precision::single;
@@ -100,7 +100,7 @@ std::unique_ptr<Backend> backend_of(const Way& way, const Options& options) {
 
 // Seconds in kernels, or of the core's threads, with the planes that a sweep keeps.
 void in_turns(benchmark::State& state, const Options& options, const Way& whole, const Way& part, const std::string& label) {
-  const Plan plan(whole.scene, false);
+  const sweeps::Plan plan(whole.scene, false);
   const auto with = backend_of(whole, options), without = backend_of(part, options);
   state.counters["hash"] = hash_all(*with, whole.scene, plan);  // warms the device's compiler as well
   hash_all(*without, part.scene, plan);

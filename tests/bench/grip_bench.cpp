@@ -43,7 +43,7 @@ std::unique_ptr<Evaluator> core_of(const Scene& scene, Precision precision) {
   return precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
 }
 
-RunRequest request_of(const Plan& plan, std::size_t vessel) {
+RunRequest request_of(const sweeps::Plan& plan, std::size_t vessel) {
   RunRequest request;
   request.vessel = vessel;
   request.last = plan.grips();
@@ -53,7 +53,7 @@ RunRequest request_of(const Plan& plan, std::size_t vessel) {
   return request;
 }
 
-std::uint64_t run_all(Backend& backend, const Scene& scene, const Plan& plan) {
+std::uint64_t run_all(Backend& backend, const Scene& scene, const sweeps::Plan& plan) {
   std::uint64_t grips = 0;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     RunRequest request = request_of(plan, v);
@@ -64,7 +64,7 @@ std::uint64_t run_all(Backend& backend, const Scene& scene, const Plan& plan) {
   return grips;
 }
 
-double hash_all(Backend& backend, const Scene& scene, const Plan& plan) {
+double hash_all(Backend& backend, const Scene& scene, const sweeps::Plan& plan) {
   std::uint64_t hash = 0;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     RunRequest request = request_of(plan, v);
@@ -102,7 +102,7 @@ Scene twelve_elements_scene() {
 }
 
 void bench_backend(benchmark::State& state, Backend& backend, const Scene& scene) {
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   state.counters["hash"] = hash_all(backend, scene, plan);  // warms the device's compiler as well
   std::uint64_t grips = 0;
   for (auto _ : state) grips += run_all(backend, scene, plan);
@@ -133,7 +133,7 @@ void core_step(benchmark::State& state, bool liquid, bool efforts) {
   Scene scene = strong;
   scene.strength.reset();
   const auto core = make_core_evaluator(scene);
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   GripResult result;
   std::uint64_t step = 0, number = 0;
   // beforehand, so that every step that is timed has an effort to find: most grips of the scene are implausible
@@ -149,13 +149,13 @@ void core_step(benchmark::State& state, bool liquid, bool efforts) {
     const std::size_t vessel = number % scene.vessels.size();
     const GripInput grip = plan.grip(vessel, number * 7919 % plan.grips());
     core->grip(vessel, grip, result);
-    GripState at{0.5, radians(static_cast<double>(number % 60)), {}, {}};
+    sweeps::GripState at{0.5, radians(static_cast<double>(number % 60)), {}, {}};
     if (liquid) at.liquid = core->liquid(vessel, at.fill, at.tilt);
     if (result.reason != Reason::none) continue;
     at.state = core->state(vessel, grip, result, at.liquid, at.tilt);
     benchmark::DoNotOptimize(at.state);
     if (!efforts) continue;
-    const Holding holding(strong, *core, vessel, result, pour_direction(strong, grip));
+    const sweeps::Holding holding(strong, *core, vessel, result, sweeps::pour_direction(strong, grip));
     benchmark::DoNotOptimize(holding.state(at).effort);
   }
 }

@@ -18,7 +18,7 @@ constexpr int HEIGHTS = 128;  // 55,296 grips of three vessels: a run of the dev
 // beakers tessellated (0.77, 0.98 and 0.81 mm): the finest of them.
 constexpr int READER_SAMPLES = 207;
 
-double seconds_of(Backend& backend, const Scene& scene, const Plan& plan) {
+double seconds_of(Backend& backend, const Scene& scene, const sweeps::Plan& plan) {
   const auto start = std::chrono::steady_clock::now();
   run_all(backend, scene, plan);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -27,7 +27,7 @@ double seconds_of(Backend& backend, const Scene& scene, const Plan& plan) {
 // `samples` along the longest side of each vessel.
 void lattice_grips(benchmark::State& state, const Options& options, int samples, int bits) {
   const Scene scene = grips_scene(HEIGHTS);
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   host::GripBackendOptions on_device;
   on_device.evaluator.lattice_samples = samples;
   on_device.evaluator.lattice_bits = bits;

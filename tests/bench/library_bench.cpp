@@ -47,7 +47,7 @@ void session_step(benchmark::State& state) {
   LiveScript script;
   script.vessel = scene.vessels[0].place;
   const auto ticks = static_cast<std::int64_t>(script.seconds() * script.rate);
-  std::vector<GripperState> states;
+  std::vector<device::GripperState> states;
   std::vector<wh_measurement> measured(static_cast<std::size_t>(ticks));
   for (std::int64_t n = 0; n < ticks; ++n) {
     states.push_back(script.at(n));
@@ -60,8 +60,8 @@ void session_step(benchmark::State& state) {
   }
   double cpp = 0, c = 0, steps = 0;
   for (auto _ : state) {
-    Session session(scene, gap);
-    Tick tick;
+    device::Session session(scene, gap);
+    device::Tick tick;
     wh_session* handled = nullptr;
     must(wh_session_open(&handle, gap[0], gap[1], &handled));
     wh_session_output out;
@@ -94,7 +94,7 @@ void library_grips(benchmark::State& state) {
   must(wh_batch_open(&handle, names, 2, "core", 1, 1, &batch));
   const auto backend =
       open_backend(scene, make_field_set({FIELD_SCORE, FIELD_TOUCH_MASK, FIELD_STATUS}, scene), "core", Precision::full, 1);
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   const auto count = static_cast<std::size_t>(plan.grips());
   std::vector<double> rows(count * WH_GRIP_COLUMNS), score(count), expected(count);
   std::vector<std::int32_t> mask(count), expected_mask(count);

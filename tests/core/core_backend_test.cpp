@@ -35,7 +35,7 @@ struct Delivery {
 class CoreBackendTest : public testing::Test {
  protected:
   Scene scene = sobol_scene();
-  Plan plan{scene, false};
+  sweeps::Plan plan{scene, false};
   FieldSet fields = make_field_set({FIELD_SCORE, FIELD_TOUCH_MASK}, scene);
 
   // A backend over the stand-in kernels; `before_chunk` runs on its threads.

@@ -86,7 +86,7 @@ TEST(Counted, EachThreadCountsItsOwn) {
 }
 
 std::vector<GripInput> some_grips(const Scene& scene, std::size_t vessel) {
-  const Plan plan(scene, true);
+  const sweeps::Plan plan(scene, true);
   std::vector<GripInput> grips;
   for (std::size_t i = 0; i < GRIPS; ++i) grips.push_back(plan.grip(vessel, i * plan.grips() / GRIPS));
   return grips;

@@ -15,7 +15,7 @@ namespace wholehand {
 namespace {
 
 std::vector<GripInput> some_grips(const Scene& scene, std::size_t vessel, std::uint64_t every) {
-  const Plan plan(scene, true);
+  const sweeps::Plan plan(scene, true);
   std::vector<GripInput> grips;
   for (std::uint64_t i = 0; i < plan.grips(); i += every) grips.push_back(plan.grip(vessel, i));
   return grips;

@@ -130,8 +130,8 @@ const std::vector<Row> TABLE{{.1, 1, 1e-3, 0, 0, 2000, 2003.3},  {.1, .1, 1e-3, 
                              {.1, 1, 1e-3, 0, 1, 0, 668.5},      {.1, 1, 1e-3, .5, 0, 1000, 2990.1},
                              {.02, 1, 1e-3, 0, 0, 2000, 2016.8}};
 
-WallDevice device_of(const Row& row) {
-  WallDevice device;
+device::WallDevice device_of(const Row& row) {
+  device::WallDevice device;
   device.mass = row.mass;
   device.damping = row.damping;
   device.rate = 1 / row.period;
@@ -142,7 +142,7 @@ WallDevice device_of(const Row& row) {
 
 TEST(Loop, LimitsAreThoseOfTheTable) {
   for (const Row& row : TABLE) {
-    const WallLimits limits = wall_limits(device_of(row));
+    const device::WallLimits limits = device::wall_limits(device_of(row));
     EXPECT_NEAR(limits.linear, row.limit, 0.05 + 5e-5 * row.limit) << "to the digits given";
     EXPECT_NEAR(limits.simulated, row.limit, 0.01 * row.limit)
         << row.mass << " kg, " << row.damping << " N s/m, delay " << row.delay;
@@ -161,20 +161,20 @@ TEST(Loop, PassiveWallsSettle) {
       for (const double rate : {250.0, 1000.0, 8000.0})
         for (const double share : {0.0, 0.4, -0.4})
           for (const double of_limit : {0.05, 0.5, 0.98}) {
-            WallDevice device;
+            device::WallDevice device;
             device.mass = mass;
             device.damping = damping;
             device.rate = rate;
             device.wall_damping = share * damping;
             const double passive = 2 * (damping - std::abs(device.wall_damping)) * rate;
-            EXPECT_TRUE(settles(device, of_limit * passive))
+            EXPECT_TRUE(device::settles(device, of_limit * passive))
                 << mass << " " << damping << " " << rate << " " << share << " " << of_limit;
           }
-  WallDevice device;
+  device::WallDevice device;
   device.encoder_step = 20e-6;
   device.coulomb = 0.015;
-  EXPECT_DOUBLE_EQ(wall_limits(device).coulomb, 1500);
-  EXPECT_TRUE(settles(device, 0.98 * 1500));
+  EXPECT_DOUBLE_EQ(device::wall_limits(device).coulomb, 1500);
+  EXPECT_TRUE(device::settles(device, 0.98 * 1500));
 }
 
 // A passive spring never gains: the energy about its rest at the samples of one and the same phase falls, so its largest over a
@@ -221,8 +221,9 @@ TEST(Loop, WallAndSpringAreToldApart) {
       fastest = std::max(fastest, std::abs(state.motion.speed));
     }
     if (is_spring) {
-      WallDevice device;
-      EXPECT_GT(fastest, 0.1 * std::pow(spectral_radius(device, wall.stiffness), 100) / 3) << "the phase of the swing is any";
+      device::WallDevice device;
+      EXPECT_GT(fastest, 0.1 * std::pow(device::spectral_radius(device, wall.stiffness), 100) / 3)
+          << "the phase of the swing is any";
       EXPECT_GT(fastest, 1.0);
     } else {
       EXPECT_GT(fastest, 0.1) << "the wall gave energy";
@@ -233,10 +234,10 @@ TEST(Loop, WallAndSpringAreToldApart) {
 }
 
 TEST(Loop, SpectralRadiusOfADeviceInTheAir) {
-  WallDevice device;  // x stays where it is: an eigenvalue of 1; the speed decays
-  EXPECT_NEAR(spectral_radius(device, 0), 1, 1e-7);
+  device::WallDevice device;  // x stays where it is: an eigenvalue of 1; the speed decays
+  EXPECT_NEAR(device::spectral_radius(device, 0), 1, 1e-7);
   device.finger_stiffness = 300;  // held: what is left decays with exp(-b t / 2 m)
-  EXPECT_NEAR(spectral_radius(device, 0), std::exp(-1 * 1e-3 / 0.2), 1e-7);
+  EXPECT_NEAR(device::spectral_radius(device, 0), std::exp(-1 * 1e-3 / 0.2), 1e-7);
 }
 
 // Both converge to the exact propagator to first order in the sub-step.
@@ -275,31 +276,31 @@ TEST(Loop, LinearLimitIsNotBelowThePassiveOne) {
   for (const double mass : {1e-6, 1e-3, 0.1, 10.0, 1000.0})
     for (const double damping : {1e-2, 1.0, 1e3})
       for (const double rate : {1.0, 1e3, 1e5}) {
-        WallDevice device;
+        device::WallDevice device;
         device.mass = mass;
         device.damping = damping;
         device.rate = rate;
-        const WallLimits limits = wall_theory(device);
+        const device::WallLimits limits = device::wall_theory(device);
         EXPECT_GE(limits.linear, limits.passive * (1 - 1e-5)) << mass << " kg, " << damping << " N s/m, " << rate << " Hz";
       }
 }
 
 // A coarse encoder without friction buzzes by more than two steps below the linear limit.
 TEST(Loop, SimulationSeesTheEncoder) {
-  WallDevice device;
+  device::WallDevice device;
   device.encoder_step = 1e-3;
-  EXPECT_LT(wall_limits(device).simulated, 0.95 * wall_theory(device).linear);
+  EXPECT_LT(device::wall_limits(device).simulated, 0.95 * wall_theory(device).linear);
   device.encoder_step = 1e-6;
   device.coulomb = 0.2;
-  EXPECT_GT(wall_limits(device).simulated, 0.95 * wall_theory(device).linear);
+  EXPECT_GT(device::wall_limits(device).simulated, 0.95 * wall_theory(device).linear);
 }
 
 // Beyond the linear limit a wall may hold a cycle that is no larger than it began: that is no stable wall.
 TEST(Loop, CyclesAreNotStable) {
-  WallDevice device;
+  device::WallDevice device;
   for (const double wall_damping : {300.0, -1.0, -2.0}) {
     device.wall_damping = wall_damping;
-    EXPECT_EQ(wall_limits(device).simulated, 0) << wall_damping;
+    EXPECT_EQ(device::wall_limits(device).simulated, 0) << wall_damping;
   }
 }
 

@@ -161,10 +161,11 @@ void add_later_keys(Choices& choose, std::string& text) {
 // The same grips once more, as the robust score deviates them.
 void add_deviated(const Scene& scene, std::vector<GripInput>& grips) {
   if (!scene.robust) return;
-  const std::vector<Deviation> all = deviations(*scene.robust);
+  const std::vector<sweeps::Deviation> all = sweeps::deviations(*scene.robust);
   must(all.size() == static_cast<std::size_t>(scene.robust->count), "deviations are missing");
-  for (std::size_t k = 0; k < GRIPS; ++k) grips.push_back(deviated(grips[k], all[k]));
-  for (const double friction : robust_frictions(scene)) must(friction >= 0 && std::isfinite(friction), "a friction is none");
+  for (std::size_t k = 0; k < GRIPS; ++k) grips.push_back(sweeps::deviated(grips[k], all[k]));
+  for (const double friction : sweeps::robust_frictions(scene))
+    must(friction >= 0 && std::isfinite(friction), "a friction is none");
 }
 
 std::vector<GripInput> grips_of(Choices& choose, const Scene& scene) {

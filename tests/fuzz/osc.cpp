@@ -11,7 +11,7 @@
 #include "device/grippers/osc_messages.h"
 #include "tests/fuzz/must.h"
 
-namespace wholehand::osc {
+namespace wholehand::device::osc {
 namespace {
 
 void must_be_rotation(const Rotation& r) {
@@ -32,7 +32,7 @@ void must_hold(const Words& words) {
   if (!words.has_state) return;
   for (const double part : words.state.position) must(std::isnan(part) || std::abs(part) <= MOST_PLACE, "a place out of range");
   must(std::isnan(words.state.gap) || (words.state.gap >= LEAST_GAP && words.state.gap <= MOST_GAP), "a gap out of range");
-  if (is_finite(words.state)) must_be_rotation(words.state.rotation);
+  if (device::is_finite(words.state)) must_be_rotation(words.state.rotation);
 }
 
 bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -58,17 +58,17 @@ void must_go_into_a_bundle(std::span<const char> datagram, const Words& words) {
 }
 
 }  // namespace
-}  // namespace wholehand::osc
+}  // namespace wholehand::device::osc
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace wholehand;
   const std::span<const char> datagram(reinterpret_cast<const char*>(data), size);
-  osc::Words words;
-  if (osc::read_words(datagram, words)) {
+  device::osc::Words words;
+  if (device::osc::read_words(datagram, words)) {
     must(!words.is_any(), "something of a datagram that is wrong");
   } else {
-    osc::must_hold(words);
-    osc::must_go_into_a_bundle(datagram, words);
+    device::osc::must_hold(words);
+    device::osc::must_go_into_a_bundle(datagram, words);
   }
   return 0;
 }

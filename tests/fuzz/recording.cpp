@@ -27,7 +27,7 @@ std::string file_of(const std::string& bytes) {
 void try_recording(const std::string& bytes) {
   const std::string path = file_of(bytes);
   try {
-    const wholehand::SessionReport report = wholehand::report_session(wholehand::read_recording(path));
+    const wholehand::device::SessionReport report = wholehand::device::report_session(wholehand::device::read_recording(path));
     const std::size_t length =
         session_table(report).size() + session_json(report).size() + grasps_csv(report).size() + states_csv(report).size();
     if (length == 0) std::abort();

@@ -10,7 +10,7 @@
 #include "device/grippers/protocol.h"
 #include "tests/fuzz/must.h"
 
-namespace wholehand::protocol {
+namespace wholehand::device::protocol {
 namespace {
 
 // Accepted reports have one encoding, whole: nothing in them is dropped or made up.
@@ -35,7 +35,7 @@ void try_input(Bytes bytes) {
   if (decode(bytes, report) != Wrong::nothing) return;
   must_be(encode(report), bytes);
   Measurements measurements(true);
-  const GripperState state = measurements.state(report);
+  const device::GripperState state = measurements.state(report);
   for (const double part : state.position) must(std::abs(part) <= 2, "a position out of range");
   must(state.gap >= -0.010 && state.gap <= 1, "a gap out of range");
   must(state.time >= 0 && state.time < 4295, "a time out of range");
@@ -62,7 +62,7 @@ void try_features(Bytes bytes) {
   Identity identity;
   if (decode_identity(bytes, identity) == Wrong::nothing) {
     must_be(encode(identity), bytes);
-    const GripperLimits limits = limits_of(identity, "");
+    const device::GripperLimits limits = limits_of(identity, "");
     must(limits.force >= 0 && limits.grip >= 0 && limits.force <= 1000 && limits.grip <= 1000, "a largest force out of range");
     must(limits.gap[0] < limits.gap[1], "a gap that does not open");
     must(limits.rate >= 1 && limits.rate <= 8000, "a rate out of range");
@@ -75,13 +75,13 @@ void try_features(Bytes bytes) {
 }
 
 }  // namespace
-}  // namespace wholehand::protocol
+}  // namespace wholehand::device::protocol
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const wholehand::protocol::Bytes bytes(data, size);
-  wholehand::protocol::try_input(bytes);
-  wholehand::protocol::try_output(bytes);
-  wholehand::protocol::try_features(bytes);
-  wholehand::protocol::is_gripper(bytes);
+  const wholehand::device::protocol::Bytes bytes(data, size);
+  wholehand::device::protocol::try_input(bytes);
+  wholehand::device::protocol::try_output(bytes);
+  wholehand::device::protocol::try_features(bytes);
+  wholehand::device::protocol::is_gripper(bytes);
   return 0;
 }

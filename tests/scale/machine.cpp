@@ -66,15 +66,16 @@ double read_back_seconds(const Job& job) {
 void run_rank(const Scene& scene, const std::string& folder, InterruptGuard& interrupt) {
   int argc = 0;
   char** argv = nullptr;
-  Team team(argc, argv);
+  sweeps::Team team(argc, argv);
   const Job& job = simulation().job;
-  const SweepOptions options{.output = folder + "/simulated.nc",
-                             .on = "core",
-                             .refine = false,
-                             .threads = 1,
-                             .started = 0,
-                             .tuning = {.mark_seconds = job.machine.mark_seconds, .piece_seconds = job.machine.piece_seconds}};
-  if (run_cluster_sweep(team, scene, options, simulated_parts(scene), interrupt) != ExitCode::done)
+  const sweeps::SweepOptions options{
+      .output = folder + "/simulated.nc",
+      .on = "core",
+      .refine = false,
+      .threads = 1,
+      .started = 0,
+      .tuning = {.mark_seconds = job.machine.mark_seconds, .piece_seconds = job.machine.piece_seconds}};
+  if (sweeps::run_cluster_sweep(team, scene, options, simulated_parts(scene), interrupt) != ExitCode::done)
     throw std::runtime_error("the sweep did not end as it should");
   if (team.is_leader()) {
     pause_for(read_back_seconds(job));
@@ -86,7 +87,7 @@ Outcome run(const Job& job, const std::string& folder) {
   const auto began = std::chrono::steady_clock::now();
   Simulation& all = simulation();
   all.job = job;
-  all.mark = output_names(folder + "/simulated.nc").mark;
+  all.mark = sweeps::output_names(folder + "/simulated.nc").mark;
   std::string name = "wholehand-scale", quiet = "--log=root.thresh:warning";
   std::vector<char*> argv{name.data(), quiet.data(), nullptr};
   int argc = 2;

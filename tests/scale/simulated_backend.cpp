@@ -137,7 +137,7 @@ class SharedEvaluator final : public Evaluator {
 };
 
 // The file of one rank. Its values are written by the backend.
-class SimulatedFile final : public OutputBytes {
+class SimulatedFile final : public sweeps::OutputBytes {
  public:
   SimulatedFile() { sleep_until(simulation().opens.serve(now(), 1 / simulation().job.machine.opens)); }
   int write(const void*, std::size_t, std::uint64_t) override { return 0; }
@@ -183,15 +183,17 @@ offset_mm = {}
       "simulated.toml");
 }
 
-SweepParts simulated_parts(const Scene& scene) {
+sweeps::SweepParts simulated_parts(const Scene& scene) {
   static const std::shared_ptr<const Evaluator> evaluator = make_core_evaluator(scene);
-  SweepParts parts;
-  parts.prepare = [](const BackendChoice& choice) {
+  sweeps::SweepParts parts;
+  parts.prepare = [](const sweeps::BackendChoice& choice) {
     sleep_until(simulation().opens.serve(now(), 1 / simulation().job.machine.opens));  // the scene file
     sleep_until(now() + simulation().job.machine.open_seconds);
     return choice;
   };
-  parts.open_backend = [](const BackendChoice&, const FieldSet& fields) { return std::make_unique<SimulatedBackend>(fields); };
+  parts.open_backend = [](const sweeps::BackendChoice&, const FieldSet& fields) {
+    return std::make_unique<SimulatedBackend>(fields);
+  };
   parts.open_evaluator = [] { return std::make_unique<SharedEvaluator>(evaluator); };
   parts.open_core = [](const Scene&, const FieldSet& fields) { return std::make_unique<SimulatedBackend>(fields); };
   parts.open_output = [](const std::string&) { return std::make_unique<SimulatedFile>(); };

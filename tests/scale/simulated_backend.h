@@ -11,6 +11,6 @@ namespace wholehand::scale {
 Scene simulated_scene(std::uint64_t grips, int entries);
 
 // The parts of a sweep for the rank that calls it. The scene must outlive them.
-SweepParts simulated_parts(const Scene& scene);
+sweeps::SweepParts simulated_parts(const Scene& scene);
 
 }  // namespace wholehand::scale

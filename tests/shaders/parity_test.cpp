@@ -50,7 +50,7 @@ TEST(Parity, SobolScene) {
   range(scene.grips.hand_scale, 0.8, 1.3);
   scene.grips.sampling = Sampling::sobol;
   scene.grips.count = 512;
-  const Plan plan(scene, true);
+  const sweeps::Plan plan(scene, true);
   const FieldSet fields = compared_fields(scene);
   const auto truth = make_core_evaluator(scene);
   for (const Precision precision : {Precision::single, Precision::full}) {

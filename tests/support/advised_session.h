@@ -18,9 +18,9 @@ inline Scene advised_session_scene() {
 }
 
 // The first tick of a played session in which the tips are near the beaker and it is not yet held.
-inline std::size_t last_free_tick(const std::vector<Tick>& record) {
+inline std::size_t last_free_tick(const std::vector<device::Tick>& record) {
   std::size_t k = 0;
-  while (k + 1 < record.size() && !is_held(record[k + 1].state)) ++k;
+  while (k + 1 < record.size() && !device::is_held(record[k + 1].state)) ++k;
   return k;
 }
 
@@ -44,9 +44,9 @@ class DyingBackend final : public Backend {
 };
 
 // An adviser whose device fails after `good` runs.
-inline AdviceLoop::AdviserOpener dying_adviser(int good) {
+inline device::AdviceLoop::AdviserOpener dying_adviser(int good) {
   return [good](const Scene& own) {
-    return std::make_unique<Adviser>(own, [good](const Scene& scene, const FieldSet& fields) -> std::unique_ptr<Backend> {
+    return std::make_unique<device::Adviser>(own, [good](const Scene& scene, const FieldSet& fields) -> std::unique_ptr<Backend> {
       return std::make_unique<DyingBackend>(scene, fields, good);
     });
   };

@@ -81,7 +81,7 @@ inline std::vector<StandInPose> presses() {
   // from the right, at 1 m/s
   for (int k = 0; k <= 10; ++k) {
     StandInPose pose;
-    pose.position = pose.thumb = pose.finger = to_dhd({0.121 - 1e-3 * k, 0.055, 0});
+    pose.position = pose.thumb = pose.finger = device::to_dhd({0.121 - 1e-3 * k, 0.055, 0});
     pose.gap = 25e-3;
     motion.push_back(pose);
   }

@@ -36,7 +36,7 @@ inline std::vector<std::string> extreme_names() {
 // A case with every grip of its first vessel and of the others, answered.
 struct AnsweredScene {
   explicit AnsweredScene(const Scene& asked) : scene(asked), core(make_core_evaluator(asked)), fields(all_fields(asked)) {
-    const Plan plan(scene, true);
+    const sweeps::Plan plan(scene, true);
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       grips.emplace_back(plan.grips());
       plan.fill(v, 0, grips[v].size(), grips[v].data());

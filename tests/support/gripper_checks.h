@@ -38,22 +38,22 @@ template <class Open>
 void check_session(MockGripper& mock, const Open& open) {
   constexpr int CYCLES = 300;
   constexpr double ROUNDING = 2e-9;  // m, and of a rotation: nanometers and 2^-30, rounded
-  std::unique_ptr<Gripper> gripper = open();
+  std::unique_ptr<device::Gripper> gripper = open();
   EXPECT_EQ(gripper->limits().force, 12);
   EXPECT_EQ(gripper->limits().grip, 8);
   EXPECT_EQ(gripper->limits().rate, 500);
   EXPECT_EQ(gripper->limits().address, mock.address());
   EXPECT_EQ(mock.watchdog().period, 1'000'000u);
-  EXPECT_EQ(mock.watchdog().flags, protocol::WATCHDOG_ON);
+  EXPECT_EQ(mock.watchdog().flags, device::protocol::WATCHDOG_ON);
   for (const auto& report : mock.outputs()) EXPECT_TRUE(is_nothing(report)) << "force before the first write";
   const std::size_t before = mock.outputs().size();
   EXPECT_GE(before, 1u) << "a watchdog that tripped earlier stays so";
 
-  GripperState state, last;
-  const auto force_at = [](int i) { return GripperForce{{0.01 * i, -0.02 * i, 0.5}, i % 2 ? 1.25 : -1.25}; };
+  device::GripperState state, last;
+  const auto force_at = [](int i) { return device::GripperForce{{0.01 * i, -0.02 * i, 0.5}, i % 2 ? 1.25 : -1.25}; };
   for (int i = 0; i < CYCLES; ++i) {
-    ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << i << ' ' << gripper->last_error();
-    const GripperState truth = mock.motion_at(state.time);
+    ASSERT_EQ(read_soon(*gripper, state), device::ReadOutcome::value) << i << ' ' << gripper->last_error();
+    const device::GripperState truth = mock.motion_at(state.time);
     for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_NEAR(state.position[axis], truth.position[axis], ROUNDING) << i;
     for (std::size_t part = 0; part < 9; ++part) ASSERT_NEAR(state.rotation[part], truth.rotation[part], 2 * ROUNDING) << i;
     ASSERT_NEAR(state.gap, truth.gap, ROUNDING) << i;
@@ -81,10 +81,10 @@ void check_session(MockGripper& mock, const Open& open) {
   ASSERT_EQ(outputs.size(), before + CYCLES + 3);
   for (int i = 0; i < CYCLES; ++i) {
     const auto& report = outputs[before + static_cast<std::size_t>(i)];
-    const GripperForce force = force_at(i);
+    const device::GripperForce force = force_at(i);
     for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_NEAR(report.arm[axis], force.arm[axis] * 1e6, 1) << i;
     ASSERT_NEAR(report.grip, force.grip * 1e6, 1) << i;
-    ASSERT_EQ(report.flags, protocol::ENABLE) << i;
+    ASSERT_EQ(report.flags, device::protocol::ENABLE) << i;
     ASSERT_EQ(report.sequence, static_cast<std::uint32_t>(i + 1));
   }
   const auto& clamped = outputs[before + CYCLES];
@@ -103,12 +103,12 @@ void check_clock(const Open& open) {
   settings.first_time = 0xFFFFFFFF - 300'000;  // wraps after 0.3 s
   Mock mock(bench, settings);
   const auto gripper = open(mock);
-  GripperState state;
-  ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
+  device::GripperState state;
+  ASSERT_EQ(read_soon(*gripper, state), device::ReadOutcome::value);
   const double first = state.time;
   double last = first;
   for (int i = 1; last < first + 0.5; ++i) {
-    ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->last_error();
+    ASSERT_EQ(read_soon(*gripper, state), device::ReadOutcome::value) << gripper->last_error();
     ASSERT_GT(state.time, last);
     ASSERT_LT(state.time, last + 2);
     last = state.time;
@@ -139,27 +139,27 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
     mock.misbehave(Mischief::none);
     const auto gripper = open();
     mock.misbehave(mischief);
-    ASSERT_EQ(first_error(*gripper), ReadOutcome::error);
+    ASSERT_EQ(first_error(*gripper), device::ReadOutcome::error);
     if (mischief != Mischief::garbage) {
       EXPECT_STREQ(gripper->last_error(), words);
     }
     if (mischief == Mischief::alternating) continue;  // each second one is good
     // the state that was asked for is left alone, and good reports are good again
-    GripperState state;
+    device::GripperState state;
     state.sequence = 4711;
-    ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::error);
+    ASSERT_EQ(read_soon(*gripper, state), device::ReadOutcome::error);
     EXPECT_EQ(state.sequence, 4711u);
     mock.misbehave(Mischief::none);
-    ReadOutcome outcome = ReadOutcome::error;
-    for (int i = 0; i < 200 && outcome != ReadOutcome::value; ++i) outcome = gripper->read(state, i);
-    EXPECT_EQ(outcome, ReadOutcome::value) << gripper->last_error();
+    device::ReadOutcome outcome = device::ReadOutcome::error;
+    for (int i = 0; i < 200 && outcome != device::ReadOutcome::value; ++i) outcome = gripper->read(state, i);
+    EXPECT_EQ(outcome, device::ReadOutcome::value) << gripper->last_error();
   }
   // the same measurement again and again is a value: the loop judges it
   mock.misbehave(Mischief::same_sequence);
   const auto gripper = open();
-  GripperState first, again;
-  ASSERT_EQ(read_soon(*gripper, first), ReadOutcome::value);
-  ASSERT_EQ(read_soon(*gripper, again), ReadOutcome::value);
+  device::GripperState first, again;
+  ASSERT_EQ(read_soon(*gripper, first), device::ReadOutcome::value);
+  ASSERT_EQ(read_soon(*gripper, again), device::ReadOutcome::value);
   EXPECT_EQ(first.sequence, again.sequence);
   EXPECT_EQ(first.time, again.time);
 }
@@ -168,49 +168,50 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
 // for this session and not for the next.
 template <class Open>
 void check_silence(MockGripper& mock, const Open& open) {
-  std::unique_ptr<Gripper> gripper = open();
+  std::unique_ptr<device::Gripper> gripper = open();
   EXPECT_EQ(mock.watchdog().period, 200'000u);
   const std::size_t before = mock.outputs().size();
   ASSERT_TRUE(gripper->write({{1, 2, 3}, 1}));
   EXPECT_TRUE(arrives(mock, before + 1));
   EXPECT_TRUE(mock.has_force());
   mock.misbehave(Mischief::silent);
-  ASSERT_EQ(first_failure([&gripper](GripperState& state) { return gripper->read(state, 0); }), ReadOutcome::timeout);
+  ASSERT_EQ(first_failure([&gripper](device::GripperState& state) { return gripper->read(state, 0); }),
+            device::ReadOutcome::timeout);
   EXPECT_STREQ(gripper->last_error(), "no report");
   const auto start = std::chrono::steady_clock::now();
-  GripperState state;
-  EXPECT_EQ(gripper->read(state, 0), ReadOutcome::timeout);
+  device::GripperState state;
+  EXPECT_EQ(gripper->read(state, 0), device::ReadOutcome::timeout);
   const double waited = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  EXPECT_GE(waited, 0.9 * READ_PATIENCE);
-  EXPECT_LT(waited, 50 * READ_PATIENCE) << "umockdev and a busy machine included";
+  EXPECT_GE(waited, 0.9 * device::READ_PATIENCE);
+  EXPECT_LT(waited, 50 * device::READ_PATIENCE) << "umockdev and a busy machine included";
   for (int k = 0; k < 60000 && (mock.has_force() || !mock.has_tripped()); ++k) rest(1e-3);
   EXPECT_FALSE(mock.has_force());
   EXPECT_TRUE(mock.has_tripped());
   mock.misbehave(Mischief::none);
   gripper->write({{1, 2, 3}, 1});
   EXPECT_FALSE(mock.has_force()) << "it started again with the force of before";
-  ASSERT_EQ(first_error(*gripper), ReadOutcome::error);
+  ASSERT_EQ(first_error(*gripper), device::ReadOutcome::error);
   EXPECT_STREQ(gripper->last_error(), "the device's watchdog has tripped");
   gripper.reset();
   gripper = open();
-  EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->last_error();
+  EXPECT_EQ(read_soon(*gripper, state), device::ReadOutcome::value) << gripper->last_error();
 }
 
 template <class Open>
 void check_unplugging(MockGripper& mock, const Open& open) {
   const auto gripper = open();
-  GripperState state;
-  for (int i = 0; i < 5; ++i) ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
+  device::GripperState state;
+  for (int i = 0; i < 5; ++i) ASSERT_EQ(read_soon(*gripper, state), device::ReadOutcome::value);
   ASSERT_TRUE(gripper->write({{1, 0, 0}, 0}));
   mock.unplug();
-  ASSERT_EQ(first_error(*gripper), ReadOutcome::error);
+  ASSERT_EQ(first_error(*gripper), device::ReadOutcome::error);
   EXPECT_STREQ(gripper->last_error(), "unplugged");
-  EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::error);
+  EXPECT_EQ(read_soon(*gripper, state), device::ReadOutcome::error);
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
   EXPECT_STREQ(gripper->last_error(), "unplugged");
-  EXPECT_EQ(gripper->release(), ReleaseResult::refused);
+  EXPECT_EQ(gripper->release(), device::ReleaseResult::refused);
   EXPECT_STREQ(gripper->last_error(), "unplugged");
-  EXPECT_EQ(gripper->panic(), ReleaseResult::refused) << "nothing was written";
+  EXPECT_EQ(gripper->panic(), device::ReleaseResult::refused) << "nothing was written";
 }
 
 // A handler for a signal while it lives.
@@ -233,26 +234,26 @@ class Handler {
 // Out of a signal handler. Whatever is written after it has no force either.
 template <class Open>
 void check_panic(MockGripper& mock, const Open& open) {
-  static Gripper* frightened;
+  static device::Gripper* frightened;
   const auto gripper = open();
   frightened = gripper.get();
   const std::size_t opened = mock.outputs().size();
   ASSERT_TRUE(gripper->write({{1, 2, 3}, 1}));
-  GripperState state;
-  ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
+  device::GripperState state;
+  ASSERT_EQ(read_soon(*gripper, state), device::ReadOutcome::value);
   ASSERT_TRUE(arrives(mock, opened + 1));
   ASSERT_TRUE(mock.has_force());
   const std::size_t before = mock.outputs().size();
-  static ReleaseResult outcome;
-  outcome = ReleaseResult::no_force;
+  static device::ReleaseResult outcome;
+  outcome = device::ReleaseResult::no_force;
   const Handler handler(SIGUSR1, [](int) { outcome = frightened->panic(); });
   raise(SIGUSR1);
-  EXPECT_EQ(outcome, ReleaseResult::written);
+  EXPECT_EQ(outcome, device::ReleaseResult::written);
   ASSERT_EQ(mock.outputs().size(), before + 1);
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
   EXPECT_TRUE(gripper->write({{1, 2, 3}, 1}));
-  ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->last_error();
+  ASSERT_EQ(read_soon(*gripper, state), device::ReadOutcome::value) << gripper->last_error();
   EXPECT_TRUE(arrives(mock, before + 2));
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
@@ -266,17 +267,17 @@ void check_release_from_watchdog(MockGripper& mock, const Open& open) {
   ASSERT_TRUE(gripper->write({{1, 2, 3}, 1}));
   ASSERT_TRUE(arrives(mock, before + 1));
   ASSERT_TRUE(mock.has_force());
-  std::thread([&gripper] { EXPECT_EQ(gripper->release_from_watchdog(), ReleaseResult::written); }).join();
+  std::thread([&gripper] { EXPECT_EQ(gripper->release_from_watchdog(), device::ReleaseResult::written); }).join();
   ASSERT_TRUE(arrives(mock, before + 2));
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
   ASSERT_TRUE(gripper->write({{0, 0, 0.5}, 0}));
   EXPECT_TRUE(arrives(mock, before + 3));
   EXPECT_TRUE(mock.has_force());
-  EXPECT_EQ(gripper->release(), ReleaseResult::written);
+  EXPECT_EQ(gripper->release(), device::ReleaseResult::written);
   EXPECT_FALSE(mock.has_force());
   mock.misbehave(Mischief::takes_no_force);
-  EXPECT_EQ(gripper->release_from_watchdog(), ReleaseResult::refused);
+  EXPECT_EQ(gripper->release_from_watchdog(), device::ReleaseResult::refused);
 }
 
 // A signal that somebody else handles is no error of the device. Not for USB: of an ioctl() that a signal interrupts umockdev loses
@@ -286,18 +287,19 @@ void check_signals(MockGripper& mock, const Open& open) {
   const Handler handler(SIGUSR1, [](int) {});
   const auto gripper = open();
   mock.misbehave(Mischief::silent);
-  const auto read = [&gripper](GripperState& state) { return gripper->read(state, 0); };
-  ASSERT_EQ(first_failure(read), ReadOutcome::timeout);
+  const auto read = [&gripper](device::GripperState& state) { return gripper->read(state, 0); };
+  ASSERT_EQ(first_failure(read), device::ReadOutcome::timeout);
   std::atomic<bool> is_enough{false};
   std::thread knocking([&is_enough, reader = pthread_self()] {
     for (; !is_enough; rest(1e-3)) pthread_kill(reader, SIGUSR1);
   });
-  GripperState state;
+  device::GripperState state;
   const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(read(state), ReadOutcome::timeout) << gripper->last_error();
-  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::duration<double>(20 * 0.9 * READ_PATIENCE)) << "given up early";
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(read(state), device::ReadOutcome::timeout) << gripper->last_error();
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::duration<double>(20 * 0.9 * device::READ_PATIENCE))
+      << "given up early";
   mock.misbehave(Mischief::none);
-  EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->last_error();
+  EXPECT_EQ(read_soon(*gripper, state), device::ReadOutcome::value) << gripper->last_error();
   is_enough = true;
   knocking.join();
 }
@@ -306,13 +308,13 @@ void check_signals(MockGripper& mock, const Open& open) {
 template <class Open>
 void check_old_reports(MockGripper& mock, const Open& open) {
   const auto gripper = open();
-  GripperState state, next;
-  ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
+  device::GripperState state, next;
+  ASSERT_EQ(read_soon(*gripper, state), device::ReadOutcome::value);
   rest(0.4);  // 200 measurements
   mock.misbehave(Mischief::silent);
-  EXPECT_EQ(gripper->read(next, 1), ReadOutcome::timeout);
+  EXPECT_EQ(gripper->read(next, 1), device::ReadOutcome::timeout);
   mock.misbehave(Mischief::none);
-  ASSERT_EQ(read_soon(*gripper, next), ReadOutcome::value) << gripper->last_error();
+  ASSERT_EQ(read_soon(*gripper, next), device::ReadOutcome::value) << gripper->last_error();
   EXPECT_GT(next.time, state.time + 0.35);
 }
 
@@ -362,8 +364,8 @@ void check_second_session(MockGripper& mock, const Open& open, const Find& find)
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].address, "");
     EXPECT_EQ(found[0].missing, "in use by another session");
-    GripperState state;
-    EXPECT_EQ(read_soon(*first, state), ReadOutcome::value) << first->last_error();
+    device::GripperState state;
+    EXPECT_EQ(read_soon(*first, state), device::ReadOutcome::value) << first->last_error();
     EXPECT_TRUE(first->write({{1, 0, 0}, 0}));
   }
   EXPECT_NO_THROW(open()) << "closed, and still in use";

@@ -59,14 +59,14 @@ double LiveScript::pause() const { return std::max((STILL_TO - STILL_FROM) / hur
 
 double LiveScript::seconds() const { return (END - (STILL_TO - STILL_FROM)) / hurry + pause(); }
 
-GripperState LiveScript::at(std::int64_t tick) const {
+device::GripperState LiveScript::at(std::int64_t tick) const {
   const double so_far = static_cast<double>(tick) / rate, still = STILL_FROM / hurry;
   const double time = so_far < still             ? hurry * so_far
                       : so_far < still + pause() ? STILL_FROM + (so_far - still) * (STILL_TO - STILL_FROM) / pause()
                                                  : STILL_TO + hurry * (so_far - still - pause());
   // off the middle, so that one tip touches before the other; to 4 mm inside of the beaker's 80
   const double close = ease(time, 0.3, 1.3), open = ease(time, 5.6, 6.2);
-  GripperState state;
+  device::GripperState state;
   state.gap = 0.127 + (0.091 - 0.127) * close + (0.125 - 0.091) * open;
   const double lift = 0.15 * ease(time, 1.5, 2.2);
   const wholehand::Rotation heading = turned('y', azimuth);

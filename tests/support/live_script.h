@@ -25,7 +25,7 @@ struct LiveScript {
 
   double seconds() const;
   double pause() const;  // s that it is held still when tilted: as long as it takes to be called so
-  GripperState at(std::int64_t tick) const;
+  device::GripperState at(std::int64_t tick) const;
 };
 
 // From 0 to 1 between two times, at rest at either end.

@@ -28,8 +28,8 @@ __attribute__((constructor)) void start_again_preloaded(int argc, char** argv, c
 double monotonic() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // About the middle of a gripper's workspace, some millimeters to and fro, and a turn about an axis that is none of the three.
-GripperState moving(double time) {
-  GripperState state;
+device::GripperState moving(double time) {
+  device::GripperState state;
   state.position = {0.010 * std::sin(3 * time), 0.005 * std::cos(2 * time), -0.007 * std::sin(time)};
   const double angle = 0.5 * std::sin(2 * time), c = std::cos(angle), s = std::sin(angle), u = 1 - c, x = 0.6, z = 0.8;
   state.rotation = {c + u * x * x, -s * z, u * x * z,  //
@@ -63,7 +63,7 @@ std::string MockBench::root() const {
 // ---- what both have ----
 
 MockSettings::MockSettings() : motion(moving) {
-  identity.flags = protocol::HAS_ROTATION;
+  identity.flags = device::protocol::HAS_ROTATION;
   identity.rate = 500;
   identity.force = 12'000'000;
   identity.grip = 8'000'000;
@@ -74,7 +74,7 @@ MockSettings::MockSettings() : motion(moving) {
 }
 
 MockGripper::MockGripper(const MockSettings& settings) : settings_(settings), start_(monotonic()) {
-  watchdog_ = {protocol::WATCHDOG_ON, settings.identity.watchdog};
+  watchdog_ = {device::protocol::WATCHDOG_ON, settings.identity.watchdog};
 }
 
 void MockGripper::start() {
@@ -101,11 +101,12 @@ void MockGripper::stop() {
 
 double MockGripper::now() const {
   if (settings_.step == 0) return monotonic() - start_;
-  return settings_.step * static_cast<double>(outputs_.size()) + sequence_ / protocol::SECOND;
+  return settings_.step * static_cast<double>(outputs_.size()) + sequence_ / device::protocol::SECOND;
 }
 
 void MockGripper::check_watchdog() {
-  if (!has_force_ || !(watchdog_.flags & protocol::WATCHDOG_ON) || now() - last_heard_ <= watchdog_.period / protocol::SECOND)
+  if (!has_force_ || !(watchdog_.flags & device::protocol::WATCHDOG_ON) ||
+      now() - last_heard_ <= watchdog_.period / device::protocol::SECOND)
     return;
   has_force_ = false;
   has_tripped_ = true;
@@ -118,10 +119,10 @@ MockGripper::Bytes MockGripper::measure() {
   kept_time_ = is_repeated ? std::optional(since) : std::nullopt;
   if (!is_repeated || sequence_ == 0) ++sequence_;
   // the clock's own microseconds first, so that the motion is that of the time that is sent
-  const std::int64_t time = settings_.first_time + std::llround(since * protocol::SECOND);
-  GripperState state = settings_.motion(static_cast<double>(time) / protocol::SECOND);
+  const std::int64_t time = settings_.first_time + std::llround(since * device::protocol::SECOND);
+  device::GripperState state = settings_.motion(static_cast<double>(time) / device::protocol::SECOND);
   state.sequence = sequence_;
-  protocol::InputReport report = protocol::report_of(state);
+  device::protocol::InputReport report = device::protocol::report_of(state);
   report.time = static_cast<std::uint32_t>(time);
   report.heard = heard_;
   odd_ = mischief_ == Mischief::number_back || mischief_ == Mischief::alternating ? odd_ + 1 : 0;
@@ -129,12 +130,12 @@ MockGripper::Bytes MockGripper::measure() {
   if (mischief_ == Mischief::alternating) report.sequence = sequence_ - odd_ + odd_ % 2;
   if (mischief_ == Mischief::clock_back) report.time = sent_time_ - 1000;
   sent_time_ = report.time;
-  if (has_force_) report.status |= protocol::FORCE_ON;
-  if (has_tripped_) report.status |= protocol::WATCHDOG_TRIPPED;
-  if (mischief_ == Mischief::not_homed) report.status &= static_cast<std::uint16_t>(~protocol::HOMED);
-  if (mischief_ == Mischief::fault) report.status |= protocol::FAULT;
+  if (has_force_) report.status |= device::protocol::FORCE_ON;
+  if (has_tripped_) report.status |= device::protocol::WATCHDOG_TRIPPED;
+  if (mischief_ == Mischief::not_homed) report.status &= static_cast<std::uint16_t>(~device::protocol::HOMED);
+  if (mischief_ == Mischief::fault) report.status |= device::protocol::FAULT;
   if (mischief_ == Mischief::no_rotation) report.quaternion = {};
-  const protocol::InputBytes encoded = protocol::encode(report);
+  const device::protocol::InputBytes encoded = device::protocol::encode(report);
   Bytes bytes(encoded.begin(), encoded.end());
   bytes[1] = settings_.version;
   switch (mischief_) {
@@ -145,10 +146,10 @@ MockGripper::Bytes MockGripper::measure() {
       bytes.resize(bytes.size() + 7);
       break;
     case Mischief::wrong_version:
-      bytes[1] = protocol::VERSION + 1;
+      bytes[1] = device::protocol::VERSION + 1;
       break;
     case Mischief::wrong_id:
-      bytes[0] = protocol::OUTPUT_ID;
+      bytes[0] = device::protocol::OUTPUT_ID;
       break;
     case Mischief::garbage:
       for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>((random_ = random_ * 1664525 + 1013904223) >> 24);
@@ -165,22 +166,22 @@ std::optional<MockGripper::Bytes> MockGripper::get_feature(std::uint8_t id) cons
     bytes[1] = settings_.version;
     return bytes;
   };
-  if (id == protocol::IDENTITY_ID) return as_bytes(protocol::encode(settings_.identity));
-  if (id == protocol::WATCHDOG_ID) return as_bytes(protocol::encode(watchdog_));
+  if (id == device::protocol::IDENTITY_ID) return as_bytes(device::protocol::encode(settings_.identity));
+  if (id == device::protocol::WATCHDOG_ID) return as_bytes(device::protocol::encode(watchdog_));
   return std::nullopt;
 }
 
-bool MockGripper::set_feature(protocol::Bytes report) {
-  protocol::Watchdog requested;
-  if (protocol::decode(report, requested) != protocol::Wrong::nothing) return false;
+bool MockGripper::set_feature(device::protocol::Bytes report) {
+  device::protocol::Watchdog requested;
+  if (device::protocol::decode(report, requested) != device::protocol::Wrong::nothing) return false;
   if (!settings_.keeps_watchdog) watchdog_ = requested;
   return true;
 }
 
-bool MockGripper::take_output(protocol::Bytes bytes) {
+bool MockGripper::take_output(device::protocol::Bytes bytes) {
   if (mischief_ == Mischief::takes_no_force) return false;
-  protocol::OutputReport report;
-  if (protocol::decode(bytes, report) != protocol::Wrong::nothing) {
+  device::protocol::OutputReport report;
+  if (device::protocol::decode(bytes, report) != device::protocol::Wrong::nothing) {
     ++rejected_;
     return true;
   }
@@ -188,7 +189,7 @@ bool MockGripper::take_output(protocol::Bytes bytes) {
   outputs_.push_back(report);
   heard_ = report.sequence;
   last_heard_ = now();
-  const bool is_enabled = (report.flags & protocol::ENABLE) != 0;
+  const bool is_enabled = (report.flags & device::protocol::ENABLE) != 0;
   if (!is_enabled) has_tripped_ = false;
   has_force_ = is_enabled && !has_tripped_;
   return true;
@@ -199,7 +200,7 @@ void MockGripper::misbehave(Mischief mischief) {
   mischief_ = mischief;
 }
 
-std::vector<protocol::OutputReport> MockGripper::outputs() const {
+std::vector<device::protocol::OutputReport> MockGripper::outputs() const {
   const std::lock_guard guard(lock_);
   return outputs_;
 }
@@ -219,7 +220,7 @@ bool MockGripper::has_tripped() const {
   return has_tripped_;
 }
 
-protocol::Watchdog MockGripper::watchdog() const {
+device::protocol::Watchdog MockGripper::watchdog() const {
   const std::lock_guard guard(lock_);
   return watchdog_;
 }

@@ -63,10 +63,10 @@ enum class Mischief {
 };
 
 struct MockSettings {
-  protocol::Identity identity;   // 12 N, grip 8 N, gap 0 to 25 mm, right-handed, with rotation, 500 Hz, "mock gripper"
-  double period = 2e-3;          // between measurements, s
-  std::uint32_t first_time = 0;  // of the device's clock, us
-  std::uint8_t version = protocol::VERSION;
+  device::protocol::Identity identity;  // 12 N, grip 8 N, gap 0 to 25 mm, right-handed, with rotation, 500 Hz, "mock gripper"
+  double period = 2e-3;                 // between measurements, s
+  std::uint32_t first_time = 0;         // of the device's clock, us
+  std::uint8_t version = device::protocol::VERSION;
   // The device's clock goes on by `step`, s, with each output that it takes, and by 1 us with each measurement: no watchdog trips where a
   // busy machine stalls. 0: the machine's clock.
   double step = 2e-3;
@@ -74,7 +74,7 @@ struct MockSettings {
   bool is_gripper = true;       // false: something else, by its descriptors
   // Position, rotation, gap and buttons at a time of the device's clock, s; the rest is the mock's own. From two threads, and under
   // the mock's lock: it must depend on nothing else.
-  std::function<GripperState(double)> motion;
+  std::function<device::GripperState(double)> motion;
   MockSettings();
 };
 
@@ -89,12 +89,12 @@ class MockGripper {
   void misbehave(Mischief mischief);
   virtual void unplug() = 0;
 
-  GripperState motion_at(double time) const { return settings_.motion(time); }
-  std::vector<protocol::OutputReport> outputs() const;  // all that were taken
-  int rejected() const;                                 // output reports that were none
-  bool has_force() const;                               // after its own watchdog
+  device::GripperState motion_at(double time) const { return settings_.motion(time); }
+  std::vector<device::protocol::OutputReport> outputs() const;  // all that were taken
+  int rejected() const;                                         // output reports that were none
+  bool has_force() const;                                       // after its own watchdog
   bool has_tripped() const;
-  protocol::Watchdog watchdog() const;
+  device::protocol::Watchdog watchdog() const;
   const std::string& node() const { return node_; }  // /dev/..
   virtual std::string address() const = 0;           // for --device
 
@@ -103,10 +103,10 @@ class MockGripper {
   // The device's own program, under the lock.
   Bytes measure();                                          // empty: nothing to send
   std::optional<Bytes> get_feature(std::uint8_t id) const;  // none: stalls
-  bool set_feature(protocol::Bytes report);
-  bool take_output(protocol::Bytes report);    // false: not taken
-  virtual void send(const Bytes& report) = 0;  // called under the lock, as is
-  virtual void frame() {}                      // before each measurement
+  bool set_feature(device::protocol::Bytes report);
+  bool take_output(device::protocol::Bytes report);  // false: not taken
+  virtual void send(const Bytes& report) = 0;        // called under the lock, as is
+  virtual void frame() {}                            // before each measurement
   void start();
   void stop();  // by each destructor, before what send() needs goes
 
@@ -125,11 +125,11 @@ class MockGripper {
   std::uint32_t odd_ = 0;            // measurements since its numbers went wrong
   std::uint32_t sent_time_ = 0;      // us
   std::optional<double> kept_time_;  // of the one measurement that is repeated
-  protocol::Watchdog watchdog_;
+  device::protocol::Watchdog watchdog_;
   bool has_force_ = false, has_tripped_ = false;
   double last_heard_ = 0;
   int rejected_ = 0;
-  std::vector<protocol::OutputReport> outputs_;
+  std::vector<device::protocol::OutputReport> outputs_;
   std::uint32_t random_ = 1;
   std::atomic<bool> is_stopping_{false};
   std::thread thread_;

@@ -69,7 +69,7 @@ void HidMock::unplug() {
 
 // The report descriptor. A device that is no gripper has another last byte of its usage.
 HidMock::Bytes HidMock::descriptor() const {
-  Bytes bytes(protocol::report_descriptor().begin(), protocol::report_descriptor().end());
+  Bytes bytes(device::protocol::report_descriptor().begin(), device::protocol::report_descriptor().end());
   if (!is_gripper_) ++bytes[5];
   return bytes;
 }

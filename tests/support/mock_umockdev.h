@@ -34,7 +34,7 @@ inline void complete(UMockdevIoctlClient* client, long result, int error = 0) {
   umockdev_ioctl_client_complete(client, error ? -1 : result, error);
 }
 
-inline std::string hex(protocol::Bytes bytes) {
+inline std::string hex(device::protocol::Bytes bytes) {
   std::string text;
   for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
   return text;

@@ -33,8 +33,9 @@ UsbMock::UsbMock(MockBench& bench, const MockSettings& settings, int number)
   node_ = fmt::format("/dev/bus/usb/001/{:03}", number);
   path_ = fmt::format("/sys/devices/mock/usb{}", number);
   // something else differs in its protocol
-  const auto usb_protocol = static_cast<std::uint8_t>(protocol::USB_PROTOCOL + (settings.is_gripper ? 0 : 1));
-  const std::array<std::uint8_t, 9> face{9, 4, 0, 0, 2, protocol::USB_CLASS, protocol::USB_SUBCLASS, usb_protocol, 0};
+  const auto usb_protocol = static_cast<std::uint8_t>(device::protocol::USB_PROTOCOL + (settings.is_gripper ? 0 : 1));
+  const std::array<std::uint8_t, 9> face{9, 4, 0, 0, 2, device::protocol::USB_CLASS, device::protocol::USB_SUBCLASS, usb_protocol,
+                                         0};
   g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(on_ioctl), this);
   umockdev_testbed_attach_ioctl(bench.testbed(), node_.c_str(), handler_, nullptr);
   add(bench.testbed(),
@@ -90,7 +91,8 @@ void UsbMock::send(const Bytes& report) {
 void UsbMock::frame() {
   for (auto at = flying_.begin(); at != flying_.end();) {
     auto* const memory = reinterpret_cast<usbdevfs_urb*>(at->data->data);
-    const protocol::Bytes bytes{static_cast<const std::uint8_t*>(memory->buffer), static_cast<std::size_t>(memory->buffer_length)};
+    const device::protocol::Bytes bytes{static_cast<const std::uint8_t*>(memory->buffer),
+                                        static_cast<std::size_t>(memory->buffer_length)};
     if (memory->endpoint != ENDPOINT_OUT || !take_output(bytes)) {
       ++at;
       continue;
@@ -110,13 +112,13 @@ void UsbMock::submit(UMockdevIoctlClient* client) {
   if (memory->type == USBDEVFS_URB_TYPE_CONTROL) {
     const std::uint8_t *const setup = buffer->data, type = setup[0], request = setup[1], id = setup[2], kind = setup[3];
     const auto size = static_cast<std::size_t>(setup[6] | setup[7] << 8);
-    if (type == 0xC1 && request == protocol::GET_REPORT && kind == protocol::FEATURE_REPORT) {
+    if (type == 0xC1 && request == device::protocol::GET_REPORT && kind == device::protocol::FEATURE_REPORT) {
       const std::optional<Bytes> report = get_feature(id);
       const std::size_t length = report ? std::min(size, report->size()) : 0;
       if (report) std::copy_n(report->begin(), length, buffer->data + 8);
       finish(urb, report ? 0 : -EPIPE, static_cast<int>(length));
     } else {
-      const bool is_taken = type == 0x41 && request == protocol::SET_REPORT && kind == protocol::FEATURE_REPORT &&
+      const bool is_taken = type == 0x41 && request == device::protocol::SET_REPORT && kind == device::protocol::FEATURE_REPORT &&
                             set_feature({buffer->data + 8, size});
       finish(urb, is_taken ? 0 : -EPIPE, is_taken ? static_cast<int>(size) : 0);
     }

@@ -30,12 +30,12 @@ inline void expect_has(const std::string& line, const std::string& gist) {
 struct OmegaGripperTest : testing::Test {
   StandIn sdk{STAND_IN_DHD};
 
-  std::unique_ptr<Gripper> open(int type = OMEGA_RIGHT) const {
+  std::unique_ptr<device::Gripper> open(int type = OMEGA_RIGHT) const {
     sdk->types = {type};
-    return open_omega(STAND_IN_DHD, OMEGA_WATCHDOG);
+    return device::open_omega(STAND_IN_DHD, OMEGA_WATCHDOG);
   }
   std::string refused() const {
-    return omega_refusal([] { open_omega(STAND_IN_DHD, OMEGA_WATCHDOG); });
+    return omega_refusal([] { device::open_omega(STAND_IN_DHD, OMEGA_WATCHDOG); });
   }
   // Where `call` stands among those that were made; past them if it was not.
   std::size_t place(const std::string& call) const {

@@ -81,22 +81,22 @@ class OscListener {
 class PlayedSession {
  public:
   explicit PlayedSession(const Scene& scene) : session(scene, own_gap(scene.hand)) { script_.vessel = scene.vessels[0].place; }
-  DisplayMoment at(std::int64_t number) {
+  device::DisplayMoment at(std::int64_t number) {
     for (; next_ <= number; ++next_) session.step(script_.at(next_), next_, tick);
     return moment();
   }
-  DisplayMoment moment() {
-    hand = hand_view(session.live(), tick, session.poses());
+  device::DisplayMoment moment() {
+    hand = device::hand_view(session.live(), tick, session.poses());
     return {tick, session.poses(), hand, timing_};
   }
   std::int64_t ticks() const { return static_cast<std::int64_t>(script_.seconds() * script_.rate); }
-  Session session;
-  Tick tick;
-  HandView hand;
+  device::Session session;
+  device::Tick tick;
+  device::HandView hand;
 
  private:
   LiveScript script_;
-  DisplayTiming timing_;
+  device::DisplayTiming timing_;
   std::int64_t next_ = 0;
 };
 

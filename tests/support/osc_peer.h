@@ -81,9 +81,9 @@ class OscPeer {
 inline int port_of(const std::string& address) { return std::stoi(address.substr(address.rfind(':') + 1)); }
 
 // An open gripper to which a peer has sent `words`, at a port of its own.
-inline std::unique_ptr<Gripper> open_said(const Scene& scene, const OscPeer& peer, const std::vector<std::string>& words,
-                                          double patience = 10) {
-  return open_osc(
+inline std::unique_ptr<device::Gripper> open_said(const Scene& scene, const OscPeer& peer, const std::vector<std::string>& words,
+                                                  double patience = 10) {
+  return device::open_osc(
       {"127.0.0.1", 0}, scene,
       [&](const std::string& line) {
         const std::size_t at = line.find(": waiting");

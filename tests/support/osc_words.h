@@ -47,7 +47,7 @@ inline std::string osc_bundle(const std::vector<std::string>& parts) {
 
 constexpr const char* STATE_TYPES = "iffffffffi";
 
-inline std::string osc_state(std::int64_t sequence, const GripperState& state, const std::string& types = STATE_TYPES) {
+inline std::string osc_state(std::int64_t sequence, const device::GripperState& state, const std::string& types = STATE_TYPES) {
   const Quaternion turn = quaternion_of(state.rotation);
   return osc_message("/wholehand/gripper/state", types,
                      {static_cast<double>(sequence), state.position[0], state.position[1], state.position[2], turn[0], turn[1],

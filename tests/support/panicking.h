@@ -43,7 +43,7 @@ class SharedPanicLog {
   PanicLog* log_;
 };
 
-class LoggingGripper : public Gripper {
+class LoggingGripper : public device::Gripper {
  public:
   explicit LoggingGripper(PanicLog& log) : log_(log) {
     limits_.force = 12;
@@ -51,41 +51,41 @@ class LoggingGripper : public Gripper {
     limits_.gap = {0, 0.1};
     limits_.watchdog = 20e-3;
   }
-  const GripperLimits& limits() const noexcept override { return limits_; }
-  ReadOutcome read(GripperState& state, std::int64_t tick) noexcept override {
+  const device::GripperLimits& limits() const noexcept override { return limits_; }
+  device::ReadOutcome read(device::GripperState& state, std::int64_t tick) noexcept override {
     if (tick == fails_at) fail();
     state.position = {0, 1, 0};
     state.gap = 0.05;
     state.sequence = static_cast<std::uint32_t>(tick + 1);
-    return ReadOutcome::value;
+    return device::ReadOutcome::value;
   }
-  bool write(const GripperForce& force) noexcept override {
+  bool write(const device::GripperForce& force) noexcept override {
     ++log_.writes;
     log_.grip = force.grip;
     return true;
   }
-  ReleaseResult panic() noexcept override {
+  device::ReleaseResult panic() noexcept override {
     ++log_.panics;
     in_panic();
-    if (answer == ReleaseResult::written) log_.grip = 0;
+    if (answer == device::ReleaseResult::written) log_.grip = 0;
     ++log_.ended;
     return answer;
   }
-  ReleaseResult release_from_watchdog() noexcept override {
+  device::ReleaseResult release_from_watchdog() noexcept override {
     ++log_.meanwhiles;
     in_meanwhile();
     log_.grip = 0;
-    return ReleaseResult::written;
+    return device::ReleaseResult::written;
   }
 
   std::function<void()> fail = [] {};
   std::function<void()> in_panic = [] {}, in_meanwhile = [] {};
-  ReleaseResult answer = ReleaseResult::written;  // of panic()
+  device::ReleaseResult answer = device::ReleaseResult::written;  // of panic()
   std::int64_t fails_at = -1;
 
  private:
   PanicLog& log_;
-  GripperLimits limits_;
+  device::GripperLimits limits_;
 };
 
 struct PanicOutcome {
@@ -134,11 +134,11 @@ inline void expect_panic(const PanicOutcome& outcome, const PanicLog& log, const
 inline void run_loop(LoggingGripper& gripper, const std::function<void()>& on_another_thread = {}) {
   static const std::atomic<bool> stop{false};
   Scene scene = scene_of({beaker1()});
-  Session session(scene, {0, 0.1});
-  LoopOptions options;
+  device::Session session(scene, {0, 0.1});
+  device::LoopOptions options;
   options.is_simulated = true;
   options.seconds = 100;
-  HapticLoop loop(scene.live, gripper, session, {}, options);
+  device::HapticLoop loop(scene.live, gripper, session, {}, options);
   std::thread haptic([&] { loop.run(stop); });
   if (on_another_thread) on_another_thread();
   haptic.join();

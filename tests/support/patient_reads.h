@@ -23,25 +23,25 @@ inline MockSettings on_the_clock() {
 inline void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 // A machine that is busy may let no report through within a read's patience: then again, for a minute.
-inline ReadOutcome read_soon(Gripper& gripper, GripperState& state) {
-  ReadOutcome outcome = ReadOutcome::timeout;
-  for (int i = 0; i < 6000 && outcome == ReadOutcome::timeout; ++i) outcome = gripper.read(state, i);
+inline device::ReadOutcome read_soon(device::Gripper& gripper, device::GripperState& state) {
+  device::ReadOutcome outcome = device::ReadOutcome::timeout;
+  for (int i = 0; i < 6000 && outcome == device::ReadOutcome::timeout; ++i) outcome = gripper.read(state, i);
   return outcome;
 }
 
 // The outcome once the good reports that still wait have been read.
 template <class Read>
-ReadOutcome first_failure(const Read& read) {
-  GripperState state;
-  ReadOutcome outcome = ReadOutcome::value;
-  for (int i = 0; i < 100 && outcome == ReadOutcome::value; ++i) outcome = read(state);
+device::ReadOutcome first_failure(const Read& read) {
+  device::GripperState state;
+  device::ReadOutcome outcome = device::ReadOutcome::value;
+  for (int i = 0; i < 100 && outcome == device::ReadOutcome::value; ++i) outcome = read(state);
   return outcome;
 }
-inline ReadOutcome first_error(Gripper& gripper) {
-  return first_failure([&gripper](GripperState& state) { return read_soon(gripper, state); });
+inline device::ReadOutcome first_error(device::Gripper& gripper) {
+  return first_failure([&gripper](device::GripperState& state) { return read_soon(gripper, state); });
 }
 
-inline bool is_nothing(const protocol::OutputReport& report) {
+inline bool is_nothing(const device::protocol::OutputReport& report) {
   return report.flags == 0 && report.arm == std::array<std::int32_t, 3>{} && report.grip == 0;
 }
 

@@ -22,12 +22,12 @@ class RecordedSession {
     now_.device.gap = 0.02;
   }
 
-  using Change = std::function<void(double t, Tick& tick)>;  // t: s since the start of this stretch
+  using Change = std::function<void(double t, device::Tick& tick)>;  // t: s since the start of this stretch
 
-  RecordedSession& stretch(double seconds, SessionState state, const Change& change = {}) {
+  RecordedSession& stretch(double seconds, device::SessionState state, const Change& change = {}) {
     const auto count = std::llround(seconds * recording.info.rate);
     now_.state = state;
-    if (state == SessionState::free) now_.vessel = -1;
+    if (state == device::SessionState::free) now_.vessel = -1;
     for (std::int64_t k = 0; k < count; ++k) {
       if (change) change(static_cast<double>(k) / recording.info.rate, now_);
       recording.ticks.push_back(now_);
@@ -44,16 +44,16 @@ class RecordedSession {
     now_.number += periods;
     return *this;
   }
-  RecordedSession& with(const std::function<void(Tick&)>& change) {
+  RecordedSession& with(const std::function<void(device::Tick&)>& change) {
     change(now_);
     return *this;
   }
-  SessionReport report() const { return report_session(recording); }
+  device::SessionReport report() const { return device::report_session(recording); }
 
-  Recording recording;
+  device::Recording recording;
 
  private:
-  Tick now_;
+  device::Tick now_;
 };
 
 // From `from` to `to` in `seconds`.
@@ -64,24 +64,24 @@ inline double ramp_to(double t, double seconds, double from, double to) { return
 inline RecordedSession tilted_session(double tilt, const std::function<double(double)>& grip,
                                       const std::function<double(double)>& normal) {
   RecordedSession session;
-  const auto forces = [&](double x, Tick& tick) {
+  const auto forces = [&](double x, device::Tick& tick) {
     tick.tilt = x * tilt;
     tick.user_force = grip(x);
     tick.normal_force = normal(x);
   };
-  session.stretch(0.2, SessionState::free).hold(0);
-  session.stretch(1, SessionState::lift, [&](double, Tick& tick) { forces(0, tick); });
-  session.stretch(2, SessionState::tilt, [&](double t, Tick& tick) { forces(t / 2, tick); });
-  session.stretch(1, SessionState::maintain, [&](double, Tick& tick) { forces(1, tick); });
-  session.with([](Tick& tick) { tick.tilt = 0; });
-  session.stretch(0.5, SessionState::free);
+  session.stretch(0.2, device::SessionState::free).hold(0);
+  session.stretch(1, device::SessionState::lift, [&](double, device::Tick& tick) { forces(0, tick); });
+  session.stretch(2, device::SessionState::tilt, [&](double t, device::Tick& tick) { forces(t / 2, tick); });
+  session.stretch(1, device::SessionState::maintain, [&](double, device::Tick& tick) { forces(1, tick); });
+  session.with([](device::Tick& tick) { tick.tilt = 0; });
+  session.stretch(0.5, device::SessionState::free);
   return session;
 }
 
 inline double linear_between(double x, double from, double to) { return from + x * (to - from); }
 
-inline GraspReport only_grasp(const RecordedSession& session) {
-  const SessionReport report = session.report();
+inline device::GraspReport only_grasp(const RecordedSession& session) {
+  const device::SessionReport report = session.report();
   EXPECT_EQ(report.grasps.size(), 1u);
   return report.grasps.at(0);
 }

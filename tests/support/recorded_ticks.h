@@ -18,8 +18,8 @@
 
 namespace wholehand {
 
-inline RecordingInfo recorded_info(std::size_t vessels) {
-  RecordingInfo info;
+inline device::RecordingInfo recorded_info(std::size_t vessels) {
+  device::RecordingInfo info;
   info.scene_name = "a bench";
   info.scene_file = "bench.toml";
   info.scene_text = "[scene]\nname = \"a bench\"\n# and \xC2\xB5\n";
@@ -37,18 +37,20 @@ inline RecordingInfo recorded_info(std::size_t vessels) {
   return info;
 }
 
-inline RecordingEnd recorded_end() { return {{1e-3, 1.1e-3, 1.2e-3, 3e-3}, {1e-5, 2e-5, 3e-5, 4e-4}, 17, Fault::interrupted, ""}; }
+inline device::RecordingEnd recorded_end() {
+  return {{1e-3, 1.1e-3, 1.2e-3, 3e-3}, {1e-5, 2e-5, 3e-5, 4e-4}, 17, device::Fault::interrupted, ""};
+}
 
 // Values that a field may have, the strange ones among them.
 class RandomTicks {
  public:
   explicit RandomTicks(unsigned seed) : random_(seed) {}
 
-  Tick next(std::size_t vessels) {
-    Tick tick;
-    for (const RecordedField& field : recorded_fields()) {
+  device::Tick next(std::size_t vessels) {
+    device::Tick tick;
+    for (const device::RecordedField& field : device::recorded_fields()) {
       char* at = reinterpret_cast<char*>(&tick) + field.offset;
-      const std::size_t count = recorded_values(field, vessels);
+      const std::size_t count = device::recorded_values(field, vessels);
       for (std::size_t k = 0; k < count; ++k) put(field, at, k);
     }
     tick.vessel = std::min(tick.vessel, static_cast<int>(vessels) - 1);
@@ -56,19 +58,20 @@ class RandomTicks {
     return tick;
   }
 
-  std::vector<Tick> some(std::size_t count, std::size_t vessels) {
-    std::vector<Tick> ticks(count);
-    for (Tick& tick : ticks) tick = next(vessels);
+  std::vector<device::Tick> some(std::size_t count, std::size_t vessels) {
+    std::vector<device::Tick> ticks(count);
+    for (device::Tick& tick : ticks) tick = next(vessels);
     return ticks;
   }
 
  private:
-  void put(const RecordedField& field, char* at, std::size_t k) {
-    if (field.as == RecordedAs::real) return store(at, k, real(field.is_finite));
-    if (field.as == RecordedAs::word) return store(at, k, static_cast<std::uint32_t>(random_()));
-    if (field.as == RecordedAs::integer)
+  void put(const device::RecordedField& field, char* at, std::size_t k) {
+    if (field.as == device::RecordedAs::real) return store(at, k, real(field.is_finite));
+    if (field.as == device::RecordedAs::word) return store(at, k, static_cast<std::uint32_t>(random_()));
+    if (field.as == device::RecordedAs::integer)
       return store(at, k, std::uniform_int_distribution<int>(static_cast<int>(field.least), static_cast<int>(field.most))(random_));
-    if (field.as == RecordedAs::flag) return store(at, k, static_cast<char>(random_() % static_cast<unsigned>(field.most + 1)));
+    if (field.as == device::RecordedAs::flag)
+      return store(at, k, static_cast<char>(random_() % static_cast<unsigned>(field.most + 1)));
   }
   template <class Number>
   static void store(char* at, std::size_t k, Number value) {
@@ -92,23 +95,23 @@ class RandomTicks {
 };
 
 // Every member, bit for bit; padding is none of anybody's business.
-inline void expect_same_ticks(const Tick& a, const Tick& b, const std::string& which) {
-  for (const RecordedField& field : recorded_fields()) {
+inline void expect_same_ticks(const device::Tick& a, const device::Tick& b, const std::string& which) {
+  for (const device::RecordedField& field : device::recorded_fields()) {
     EXPECT_EQ(std::memcmp(reinterpret_cast<const char*>(&a) + field.offset, reinterpret_cast<const char*>(&b) + field.offset,
-                          bytes_in_tick(field)),
+                          device::bytes_in_tick(field)),
               0)
         << which << ": " << field.name;
   }
 }
 
-inline void expect_same_ticks(const std::vector<Tick>& a, const std::vector<Tick>& b) {
+inline void expect_same_ticks(const std::vector<device::Tick>& a, const std::vector<device::Tick>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) expect_same_ticks(a[k], b[k], fmt::format("tick {}", k));
 }
 
-inline std::string record_session(const TemporaryFolder& folder, const std::vector<Tick>& ticks, std::size_t vessels = 2) {
+inline std::string record_session(const TemporaryFolder& folder, const std::vector<device::Tick>& ticks, std::size_t vessels = 2) {
   const std::string path = folder / "session.nc";
-  RecordingWriter writer(path, recorded_info(vessels));
+  device::RecordingWriter writer(path, recorded_info(vessels));
   EXPECT_TRUE(writer.append(ticks));
   EXPECT_TRUE(writer.finish(recorded_end())) << writer.last_error();
   return path;

@@ -14,13 +14,13 @@ namespace wholehand {
 // Lets the reader come as far as what was changed. What is no recording any more stays.
 inline void renew_checksums(std::string& bytes) {
   try {
-    classic::Header header = classic::parse_header(bytes, bytes.size());
+    device::classic::Header header = device::classic::parse_header(bytes, bytes.size());
     std::string fixed;
-    for (const classic::Variable& variable : header.variables)
+    for (const device::classic::Variable& variable : header.variables)
       if (!variable.is_record) fixed += bytes.substr(variable.begin, variable.size);
-    set_checksum(header, fixed);
-    const std::string start = classic::encode_header(header);
-    RecordChecksums checksums(header);
+    device::set_checksum(header, fixed);
+    const std::string start = device::classic::encode_header(header);
+    device::RecordChecksums checksums(header);
     bytes.replace(0, start.size(), start);
     for (std::uint64_t k = 0; header.record_begin + (k + 1) * header.record_size <= bytes.size(); ++k)
       checksums.store(bytes.data() + header.record_begin + k * header.record_size);

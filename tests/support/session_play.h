@@ -13,12 +13,12 @@
 namespace wholehand {
 
 // All ticks of a way through a scene: the state of each by a function.
-inline std::vector<Tick> play_session(
-    const Scene& scene, const std::function<GripperState(std::int64_t)>& at, std::int64_t ticks,
+inline std::vector<device::Tick> play_session(
+    const Scene& scene, const std::function<device::GripperState(std::int64_t)>& at, std::int64_t ticks,
     const std::function<std::int64_t(std::int64_t)>& next = [](std::int64_t n) { return n + 1; }) {
-  Session session(scene, own_gap(scene.hand));
-  std::vector<Tick> record;
-  Tick tick;
+  device::Session session(scene, own_gap(scene.hand));
+  std::vector<device::Tick> record;
+  device::Tick tick;
   for (std::int64_t n = 0; n < ticks; n = next(n)) {
     session.step(at(n), n, tick);
     record.push_back(tick);
@@ -32,19 +32,19 @@ inline LiveScript script_for(const Scene& scene) {
   return script;
 }
 
-inline std::vector<Tick> play_session(const Scene& scene, const LiveScript& script) {
+inline std::vector<device::Tick> play_session(const Scene& scene, const LiveScript& script) {
   return play_session(
       scene, [&](std::int64_t n) { return script.at(n); }, static_cast<std::int64_t>(script.seconds() * script.rate));
 }
 
-inline double liquid_in_sight(const Tick& tick, int v) {
+inline double liquid_in_sight(const device::Tick& tick, int v) {
   const auto k = static_cast<std::size_t>(v);
   return tick.volume[k] + tick.arrived[k] + tick.spilled[k];
 }
 
 // Straight above the hand's own frame: the gripper at NO_ROTATION.
-inline GripperState gripper_at(core_f64::Vec3 middle, double gap) {
-  GripperState state;
+inline device::GripperState gripper_at(core_f64::Vec3 middle, double gap) {
+  device::GripperState state;
   state.position = to_triple(middle);
   state.gap = gap;
   return state;

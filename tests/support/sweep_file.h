@@ -19,18 +19,18 @@ namespace wholehand {
 struct SweepFile {
   SweepFile(const Scene& wanted, const std::string& path, Precision precision = Precision::full, std::size_t chunk = 97)
       : scene(wanted),
-        variables(choose_variables(scene)),
-        plan(scene, keeps_vectors(variables)),
-        backend(scene, make_field_set(variable_fields(variables), scene), precision, chunk),
-        contents{scene, plan, variables, vessel_facts(scene, backend, FakeEvaluator(scene)), backend.info(), "1", 3},
-        names(output_names(path)) {}
+        variables(sweeps::choose_variables(scene)),
+        plan(scene, sweeps::keeps_vectors(variables)),
+        backend(scene, make_field_set(sweeps::variable_fields(variables), scene), precision, chunk),
+        contents{scene, plan, variables, sweeps::vessel_facts(scene, backend, FakeEvaluator(scene)), backend.info(), "1", 3},
+        names(sweeps::output_names(path)) {}
 
-  ResultFile open(bool resume = false) {
-    return ResultFile(names, contents, backend.fields(), resume ? FileStart::resumed : FileStart::reserved);
+  sweeps::ResultFile open(bool resume = false) {
+    return sweeps::ResultFile(names, contents, backend.fields(), resume ? sweeps::FileStart::resumed : sweeps::FileStart::reserved);
   }
 
   // Grips [first, last) of a vessel.
-  void write(ResultFile& file, std::size_t vessel, std::uint64_t first, std::uint64_t last) {
+  void write(sweeps::ResultFile& file, std::size_t vessel, std::uint64_t first, std::uint64_t last) {
     RunRequest request;
     request.vessel = vessel;
     request.first = first;
@@ -40,17 +40,17 @@ struct SweepFile {
     backend.run(request);
   }
 
-  void write_all(ResultFile& file) {
+  void write_all(sweeps::ResultFile& file) {
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) write(file, v, 0, plan.grips());
-    file.write_ending(BestLists(scene.vessels.size()), 1, 1);
+    file.write_ending(sweeps::BestLists(scene.vessels.size()), 1, 1);
   }
 
   Scene scene;
-  std::vector<const Variable*> variables;
-  Plan plan;
+  std::vector<const sweeps::Variable*> variables;
+  sweeps::Plan plan;
   FakeBackend backend;
-  ResultContents contents;
-  OutputNames names;
+  sweeps::ResultContents contents;
+  sweeps::OutputNames names;
 };
 
 // Runs `work` in a process of its own; its exit code, or minus the signal that ended it.
@@ -64,14 +64,14 @@ int in_child(const Work& work) {
 }
 
 // What the file must hold of a variable: written out from the stand-in kernels, index by index.
-inline std::vector<double> expected_values(const SweepFile& setup, const Variable& variable) {
+inline std::vector<double> expected_values(const SweepFile& setup, const sweeps::Variable& variable) {
   std::vector<double> values;
-  const std::size_t planes = variable_planes(variable, setup.scene);
+  const std::size_t planes = sweeps::variable_planes(variable, setup.scene);
   for (std::size_t v = 0; v < setup.scene.vessels.size(); ++v) {
     for (std::size_t p = 0; p < planes; ++p) {
       for (std::uint64_t stored = 0; stored < setup.plan.stored_grips(); ++stored) {
         const GripInput grip = setup.plan.grip(v, stored % setup.plan.grips());
-        if (variable.type == NumberType::real) {
+        if (variable.type == sweeps::NumberType::real) {
           values.push_back(fake_real(v, grip, variable.field, variable.plane + static_cast<int>(p)));
           continue;
         }
@@ -84,7 +84,7 @@ inline std::vector<double> expected_values(const SweepFile& setup, const Variabl
 }
 
 inline void expect_expected(const SweepFile& setup, const std::string& path) {
-  for (const Variable* variable : setup.variables) {
+  for (const sweeps::Variable* variable : setup.variables) {
     const auto expected = expected_values(setup, *variable), found = read_values(path, variable->name);
     ASSERT_EQ(found.size(), expected.size()) << variable->name;
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -59,18 +59,19 @@ apart_mm = 0
 )toml";
 
 void write_result(const Scene& scene, const std::string& path, Precision precision, bool has_ending) {
-  const auto variables = choose_variables(scene);
-  const Plan plan(scene, keeps_vectors(variables));
+  const auto variables = sweeps::choose_variables(scene);
+  const sweeps::Plan plan(scene, sweeps::keeps_vectors(variables));
   const std::shared_ptr<const Evaluator> core =
       precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
-  CoreBackend backend(core, scene, make_field_set(variable_fields(variables), scene), precision, 2);
+  CoreBackend backend(core, scene, make_field_set(sweeps::variable_fields(variables), scene), precision, 2);
   const auto best_wanted = static_cast<std::size_t>(scene.output.best);
-  const ResultContents contents{scene, plan, variables, vessel_facts(scene, backend, *core), backend.info(), "1.2.3", best_wanted};
-  const OutputNames names = output_names(path);
-  ResultFile file(names, contents, backend.fields(), FileStart::reserved);
-  BestLists best;
+  const sweeps::ResultContents contents{scene,          plan,    variables,  sweeps::vessel_facts(scene, backend, *core),
+                                        backend.info(), "1.2.3", best_wanted};
+  const sweeps::OutputNames names = sweeps::output_names(path);
+  sweeps::ResultFile file(names, contents, backend.fields(), sweeps::FileStart::reserved);
+  sweeps::BestLists best;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    HandLists lists(plan, best_wanted, {});
+    sweeps::HandLists lists(plan, best_wanted, {});
     RunRequest request;
     request.vessel = v;
     request.last = plan.grips();
@@ -82,7 +83,7 @@ void write_result(const Scene& scene, const std::string& path, Precision precisi
     lists.offer(backend.run(request).best);
     for (std::size_t s = 0; s < plan.hand_scales(); ++s) {
       best.emplace_back();
-      for (const Candidate& candidate : lists.sorted(s)) best.back().push_back(bare_grip(plan, v, candidate));
+      for (const Candidate& candidate : lists.sorted(s)) best.back().push_back(sweeps::bare_grip(plan, v, candidate));
     }
   }
   if (has_ending) file.write_ending(best, 12.5, 3.25);
@@ -116,7 +117,7 @@ void change_values(const std::string& path, const std::string& variable, const s
 
 void renew_checksums(const std::string& path) {
   const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
-  EXPECT_NO_THROW(write_checksums(file, path, checksum_parts(path)));
+  EXPECT_NO_THROW(sweeps::write_checksums(file, path, sweeps::checksum_parts(path)));
   close(file);
 }
 
@@ -134,8 +135,8 @@ SweptScene::SweptScene(const std::string& text, Precision precision)
 }
 
 void SweptScene::open() {
-  result = std::make_unique<SweepResult>(path);
-  plan = std::make_unique<Plan>(scene, keeps_vectors(result->variables()));
+  result = std::make_unique<sweeps::SweepResult>(path);
+  plan = std::make_unique<sweeps::Plan>(scene, sweeps::keeps_vectors(result->variables()));
   result->use(scene, *plan);
   source = std::make_unique<ReportSource>(ReportSource{*result, scene, *plan, make_core_evaluator(scene), ""});
 }

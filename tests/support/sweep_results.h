@@ -37,8 +37,8 @@ struct SweptScene {
   TemporaryFolder folder;
   Scene scene;
   std::string path;
-  std::unique_ptr<SweepResult> result;
-  std::unique_ptr<Plan> plan;
+  std::unique_ptr<sweeps::SweepResult> result;
+  std::unique_ptr<sweeps::Plan> plan;
   std::unique_ptr<ReportSource> source;
 
   GripInput best_grip(std::size_t vessel) const;

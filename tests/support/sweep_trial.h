@@ -28,7 +28,7 @@ struct SweepOutcome {
 // A sweep over the stand-in kernels.
 struct SweepTrial {
   Scene scene = fake_scene();
-  SweepOptions options;
+  sweeps::SweepOptions options;
   Precision precision = Precision::full;
   std::size_t chunk = 50;
   std::function<void()> before_run, before_chunk, before_other;  // of a scene with another friction: each of its chunks
@@ -42,21 +42,22 @@ struct SweepTrial {
   }
 
   ExitCode run_bare() {
-    const SweepParts parts{.open_backend = [this](const BackendChoice&, const FieldSet& fields) -> std::unique_ptr<Backend> {
-                             auto backend = std::make_unique<FakeBackend>(scene, fields, precision, chunk);
-                             backend->before_run = before_run;
-                             backend->before_chunk = before_chunk;
-                             backend->info_.driver = driver;
-                             ++opened;
-                             return backend;
-                           },
-                           .open_evaluator = [this] { return std::make_unique<FakeEvaluator>(scene); },
-                           .open_core = [this](const Scene& other, const FieldSet& fields) -> std::unique_ptr<Backend> {
-                             auto backend = std::make_unique<FakeBackend>(other, fields, precision, chunk);
-                             backend->before_chunk = before_other;
-                             return backend;
-                           }};
-    return run_sweep(scene, options, parts);
+    const sweeps::SweepParts parts{
+        .open_backend = [this](const sweeps::BackendChoice&, const FieldSet& fields) -> std::unique_ptr<Backend> {
+          auto backend = std::make_unique<FakeBackend>(scene, fields, precision, chunk);
+          backend->before_run = before_run;
+          backend->before_chunk = before_chunk;
+          backend->info_.driver = driver;
+          ++opened;
+          return backend;
+        },
+        .open_evaluator = [this] { return std::make_unique<FakeEvaluator>(scene); },
+        .open_core = [this](const Scene& other, const FieldSet& fields) -> std::unique_ptr<Backend> {
+          auto backend = std::make_unique<FakeBackend>(other, fields, precision, chunk);
+          backend->before_chunk = before_other;
+          return backend;
+        }};
+    return sweeps::run_sweep(scene, options, parts);
   }
 
   SweepOutcome run() {
@@ -100,7 +101,7 @@ inline int exit_of(pid_t child) {
 
 // The list beside a result without what each row ends with: the names of the result and of the sweep, which reveal the backend.
 inline std::string list_beside(const std::string& result) {
-  std::istringstream rows(file_text(output_names(result).best));
+  std::istringstream rows(file_text(sweeps::output_names(result).best));
   std::string text;
   for (std::string row; std::getline(rows, row);) {
     for (int k = 0; k < 2; ++k) row.resize(std::min(row.size(), row.rfind(',')));
@@ -124,7 +125,8 @@ class RunTest : public testing::Test {
   void expect_same_as(const std::string& reference, const std::string& other) {
     expect_same_values(reference, other);
     EXPECT_EQ(list_beside(reference), list_beside(other));
-    EXPECT_EQ(file_text(output_names(reference).heat_map("second")), file_text(output_names(other).heat_map("second")));
+    EXPECT_EQ(file_text(sweeps::output_names(reference).heat_map("second")),
+              file_text(sweeps::output_names(other).heat_map("second")));
   }
 };
 

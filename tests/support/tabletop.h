@@ -20,7 +20,7 @@ constexpr double PROXY_SKIN = 1e-6;         // m: that carry_proxy gives a bare 
 // Vessels that stand somewhere, off the origin, so that a forgotten offset shows.
 struct Tabletop {
   std::vector<core_f64::Vessel> vessels;
-  Obstacles obstacles;
+  device::Obstacles obstacles;
 
   Tabletop(const std::vector<VesselData>& data, const std::vector<core_f64::Vec3>& places) {
     vessels.reserve(data.size());
@@ -31,7 +31,7 @@ struct Tabletop {
     obstacles.count = static_cast<int>(data.size());
     obstacles.thinnest = TABLETOP_WALL;
   }
-  double separation(core_f64::Vec3 p, double radius) const { return nearest_vessel(obstacles, p, radius).separation; }
+  double separation(core_f64::Vec3 p, double radius) const { return device::nearest_vessel(obstacles, p, radius).separation; }
 };
 
 inline const core_f64::Vec3 TABLETOP_PLACE(0.13, 0.02, -0.07);
@@ -41,12 +41,12 @@ inline core_f64::Vec3 around_axis(double r, double y, double azimuth) {
 }
 
 // Carries a proxy along a straight way in steps, from where it is free.
-inline Proxy carry_along(const Obstacles& obstacles, core_f64::Vec3 from, core_f64::Vec3 to, int steps, double radius,
-                         double friction) {
-  Proxy proxy;
+inline device::Proxy carry_along(const device::Obstacles& obstacles, core_f64::Vec3 from, core_f64::Vec3 to, int steps,
+                                 double radius, double friction) {
+  device::Proxy proxy;
   proxy.place = from;
   for (int k = 1; k <= steps; ++k) {
-    proxy = carry_proxy(obstacles, proxy, glm::mix(from, to, static_cast<double>(k) / steps), radius, friction);
+    proxy = device::carry_proxy(obstacles, proxy, glm::mix(from, to, static_cast<double>(k) / steps), radius, friction);
   }
   return proxy;
 }

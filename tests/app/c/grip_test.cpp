@@ -59,7 +59,7 @@ void expect_same(const wh_grip_result& c, const GripResult& cpp, const GripScore
   expect_same(c.wrist_pronation, cpp.wrist_angles[2], "wrist_pronation");
 }
 
-void expect_same(const wh_grip_state& c, const GripState& cpp, const StateHold& hold) {
+void expect_same(const wh_grip_state& c, const sweeps::GripState& cpp, const sweeps::StateHold& hold) {
   expect_same(c.fill, cpp.fill, "fill");
   expect_same(c.tilt, cpp.tilt, "tilt");
   expect_same(c.liquid_volume, cpp.liquid.volume, "liquid_volume");
@@ -82,7 +82,7 @@ TEST(LibraryGrip, IsWhatTheCoreSays) {
   const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
   wh_scene* handle = nullptr;
   ASSERT_EQ(wh_scene_open("three_beakers", &handle), WH_OK) << wh_message();
-  const GripMethods methods = core_grip_methods(scene, core, "core");
+  const sweeps::GripMethods methods = sweeps::core_grip_methods(scene, core, "core");
   int feasible = 0;
   for (std::size_t vessel = 0; vessel < 3; ++vessel)
     for (const double height : {0.03, 0.05, 0.07, 0.09})
@@ -102,8 +102,8 @@ TEST(LibraryGrip, IsWhatTheCoreSays) {
         if (found.reason != Reason::none) continue;
         ++feasible;
         expect_same(result, found, core->score(vessel, input, found));
-        GripReport report = make_grip_report(scene, vessel, input, {{0.5}, {1.1}}, methods);
-        add_holding(report, scene, vessel, *core);
+        sweeps::GripReport report = sweeps::make_grip_report(scene, vessel, input, {{0.5}, {1.1}}, methods);
+        sweeps::add_holding(report, scene, vessel, *core);
         ASSERT_EQ(wh_grip_hold(handle, vessel, &grip, 0.5, 1.1, &state), WH_OK) << wh_message();
         expect_same(state, report.answer.states.at(0), report.holds.at(0));
         ASSERT_FALSE(HasFailure()) << "vessel " << vessel << ", height " << height << ", roll " << roll;

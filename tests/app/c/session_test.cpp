@@ -22,7 +22,7 @@ namespace {
 
 using wholehand::expect_same;
 
-wh_measurement measured(const GripperState& state, std::int64_t tick) {
+wh_measurement measured(const device::GripperState& state, std::int64_t tick) {
   wh_measurement in;
   WH_INIT(&in);
   in.tick = tick;
@@ -33,7 +33,7 @@ wh_measurement measured(const GripperState& state, std::int64_t tick) {
   return in;
 }
 
-void expect_same(const wh_session_output& out, const Tick& tick) {
+void expect_same(const wh_session_output& out, const device::Tick& tick) {
   EXPECT_EQ(out.state, static_cast<int>(tick.state));
   EXPECT_EQ(out.vessel, tick.vessel);
   expect_same(out.arm_force, tick.wanted.arm, "arm_force");
@@ -58,7 +58,7 @@ void expect_same(const wh_session_output& out, const Tick& tick) {
   EXPECT_EQ(out.is_task_done, tick.task_done ? 1 : 0);
 }
 
-void expect_same(const wh_hand& hand, const HandView& view, const HandNodes& nodes) {
+void expect_same(const wh_hand& hand, const device::HandView& view, const sweeps::HandNodes& nodes) {
   for (std::size_t j = 0; j < WH_JOINTS; ++j) {
     expect_same(hand.joints[j], view.proxies[j], "joints");
     expect_same(hand.radii[j], nodes.joints[j].radius, "radii");
@@ -79,9 +79,9 @@ TEST(LibrarySession, StepsAsTheProgramDoes) {
     const auto gap = own_gap(scene.hand);
     wh_session* session = nullptr;
     ASSERT_EQ(wh_session_open(&handle, gap[0], gap[1], &session), WH_OK) << wh_message();
-    Session truth(scene, gap);
+    device::Session truth(scene, gap);
     const LiveScript script = script_for(scene);
-    Tick tick;
+    device::Tick tick;
     wh_session_output out;
     wh_hand hand;
     wh_session_vessel vessel;
@@ -91,11 +91,11 @@ TEST(LibrarySession, StepsAsTheProgramDoes) {
     const auto ticks = static_cast<std::int64_t>(script.seconds() * script.rate);
     int held = 0;
     for (std::int64_t n = 0; n < ticks; ++n) {
-      const GripperState state = script.at(n);
+      const device::GripperState state = script.at(n);
       const wh_measurement in = measured(state, n);
       ASSERT_EQ(wh_session_step(session, &in, &out), WH_OK) << wh_message();
       truth.step(state, n, tick);
-      held += is_held(tick.state);
+      held += device::is_held(tick.state);
       expect_same(out, tick);
       ASSERT_EQ(wh_session_vessel_at(session, 0, &vessel), WH_OK);
       expect_same(vessel.place, truth.poses()[0].place, "place");
@@ -105,8 +105,9 @@ TEST(LibrarySession, StepsAsTheProgramDoes) {
       expect_same(vessel.spilled, tick.spilled[0], "spilled");
       if (n % 20 == 0) {
         ASSERT_EQ(wh_session_hand(session, &hand), WH_OK);
-        const HandView view = hand_view(truth.live(), tick, truth.poses());
-        expect_same(hand, view, hand_nodes(truth.live().scene.hand, truth.live().hand, view.wrist, view.rotation, view.proxies));
+        const device::HandView view = device::hand_view(truth.live(), tick, truth.poses());
+        expect_same(hand, view,
+                    sweeps::hand_nodes(truth.live().scene.hand, truth.live().hand, view.wrist, view.rotation, view.proxies));
       }
       ASSERT_FALSE(HasFailure()) << "at tick " << n;
     }

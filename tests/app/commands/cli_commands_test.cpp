@@ -29,19 +29,19 @@ using wholehand::SMALL_GRIP;
 // A vessel lifted for a second.
 std::string small_recording(const std::string& folder) {
   using namespace wholehand;
-  RecordingInfo info;
+  device::RecordingInfo info;
   info.scene_name = "bench";
   info.device.name = "omega.7";
   info.vessels = {{"one", "water", 2}};
-  std::vector<Tick> ticks(1500);
+  std::vector<device::Tick> ticks(1500);
   for (std::size_t k = 0; k < ticks.size(); ++k) {
     ticks[k].number = static_cast<std::int64_t>(k);
-    ticks[k].state = k < 500 ? SessionState::free : SessionState::lift;
+    ticks[k].state = k < 500 ? device::SessionState::free : device::SessionState::lift;
     ticks[k].vessel = k < 500 ? -1 : 0;
     ticks[k].user_force = 3;
   }
   const std::string path = folder + "/session.nc";
-  RecordingWriter writer(path, info);
+  device::RecordingWriter writer(path, info);
   writer.append(ticks);
   writer.finish({});
   return path;

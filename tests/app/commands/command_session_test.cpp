@@ -38,13 +38,13 @@ class SessionCommand : public testing::Test {
 
   // A recording of two ticks.
   std::string small(const std::string& name, const std::string& vessel, const std::string& scene_text) const {
-    RecordingInfo info;
+    device::RecordingInfo info;
     info.scene_text = scene_text;
     info.device.name = "omega.7";
     info.vessels = {{vessel, "", 2}};
     const std::string path = folder / name;
-    RecordingWriter writer(path, info);
-    std::vector<Tick> ticks(2);
+    device::RecordingWriter writer(path, info);
+    std::vector<device::Tick> ticks(2);
     ticks[1].number = 1;
     writer.append(ticks);
     writer.finish({});

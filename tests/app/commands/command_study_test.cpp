@@ -148,7 +148,7 @@ TEST_F(StudyCommand, TheDatasetHasTheRowsOfTheTable) {
       if (c < 5) {
         EXPECT_EQ(texts[k], cell) << columns[c] << " " << k;
       } else if (columns[c] == "inside") {
-        EXPECT_EQ(numbers[k], MISSING) << "the paper's values are not known";
+        EXPECT_EQ(numbers[k], sweeps::MISSING) << "the paper's values are not known";
       } else if (cell.empty()) {
         EXPECT_TRUE(std::isnan(numbers[k])) << columns[c] << " " << k;
       } else {

@@ -149,7 +149,7 @@ TEST_F(CommandUnheld, AHandThatIsTooSmallHasItsOwnVerdict) {
   ASSERT_EQ(scales.size(), 2u);
   std::vector<double> least{1e9, 1e9};
   const Scene scene = read_scene_file(folder / "a.toml");
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   for (std::uint64_t grip = 0; grip < plan.grips(); ++grip) {
     double& known = least[plan.hand_scale_of(grip)];
     if (efforts[grip] < known) known = efforts[grip];

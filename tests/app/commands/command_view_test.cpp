@@ -120,13 +120,13 @@ TEST(LiveView, WhatIsShownIsWhatWasRecorded) {
   const TemporaryFolder folder;
   const std::string file = folder / "a.nc";
   ASSERT_EQ(run("PROGRAM live --no-clock --seconds 6 --record " + file).code, 0);
-  const Recording recording = read_recording(file);
+  const device::Recording recording = device::read_recording(file);
   Viewed live("live --view --device replay:" + file);
   HttpSocket socket(live.at.port);
   socket.send(live.at.request("frames"));
-  const LiveScene scene(read_scene_file(find_scene("mixing_board")));
+  const device::LiveScene scene(read_scene_file(find_scene("mixing_board")));
   FrameMaker maker(scene);
-  VesselTracker tracker(scene.scene);
+  device::VesselTracker tracker(scene.scene);
   std::size_t k = 0;
   int compared = 0;
   for (std::string event = socket.read_event(); !event.empty() && event.find("\"tick\"") != std::string::npos;
@@ -135,10 +135,11 @@ TEST(LiveView, WhatIsShownIsWhatWasRecorded) {
     if (seen["state"] == "released") break;
     while (k < recording.ticks.size() && recording.ticks[k].number <= seen["tick"]) tracker.follow(recording.ticks[k++]);
     ASSERT_GT(k, 0u);
-    const Tick& tick = recording.ticks[k - 1];
+    const device::Tick& tick = recording.ticks[k - 1];
     ASSERT_EQ(tick.number, seen["tick"]);
-    const DisplayTiming timing{seen["timing"]["rate"], seen["timing"]["step"], seen["timing"]["missed"]};
-    const json truth = parse_json(frame_json(maker.make(tick, tracker.poses(), hand_view(scene, tick, tracker.poses()), timing)));
+    const device::DisplayTiming timing{seen["timing"]["rate"], seen["timing"]["step"], seen["timing"]["missed"]};
+    const json truth =
+        parse_json(frame_json(maker.make(tick, tracker.poses(), device::hand_view(scene, tick, tracker.poses()), timing)));
     EXPECT_EQ(seen, truth) << tick.number;
     ++compared;
   }
@@ -253,7 +254,7 @@ TEST(LiveView, AStormOfConnectionsCostsTheSessionNothing) {
   EXPECT_TRUE(report["fault"].is_null());
   EXPECT_TRUE(report["recorded_wholly"]);
   EXPECT_EQ(report["ticks"].get<int>() + report["missed"].get<int>(), 4000);
-  const Recording recording = read_recording(file);
+  const device::Recording recording = device::read_recording(file);
   EXPECT_EQ(recording.ticks.size(), report["ticks"].get<std::size_t>() + 1) << "and the one with which it ended";
 }
 
@@ -263,7 +264,7 @@ TEST(ViewCommand, ShowsARecordingAtAnyMoment) {
   const TemporaryFolder folder;
   const std::string file = folder / "mine.nc";
   ASSERT_EQ(run("PROGRAM live --no-clock --seconds 12 --record " + file).code, 0);
-  const Recording recording = read_recording(file);
+  const device::Recording recording = device::read_recording(file);
   Viewed view("view " + file);
   const json scene = view.get("scene.json");
   EXPECT_EQ(scene["mode"], "recording");
@@ -272,7 +273,7 @@ TEST(ViewCommand, ShowsARecordingAtAnyMoment) {
   ASSERT_EQ(frames.size(), 571u);
   for (std::size_t k = 0; k < frames.size(); k += 30) {
     const std::size_t at = static_cast<std::size_t>((2 + static_cast<double>(k) / 60) * 1000 + 1e-6);
-    const Tick& tick = recording.ticks[at];
+    const device::Tick& tick = recording.ticks[at];
     EXPECT_EQ(frames[k]["tick"], tick.number);
     EXPECT_TRUE(is_same(frames[k]["forces"]["feedback"], tick.feedback));
     EXPECT_TRUE(is_same(frames[k]["gap"], tick.gap));

@@ -116,17 +116,17 @@ TEST(HostileNames, SteerNothingInErrorLines) {
 // A recording says who felt it in words of its own.
 TEST(HostileNames, SteerNothingFromARecording) {
   const TemporaryFolder folder;
-  RecordingInfo info;
+  device::RecordingInfo info;
   info.scene_name = info.device.name = info.start = HOSTILE;
   info.vessels = {{HOSTILE, "=water", 2}};
-  std::vector<Tick> ticks(1500);
+  std::vector<device::Tick> ticks(1500);
   for (std::size_t k = 0; k < ticks.size(); ++k) {
     ticks[k].number = static_cast<std::int64_t>(k);
-    ticks[k].state = k < 500 ? SessionState::free : SessionState::lift;
+    ticks[k].state = k < 500 ? device::SessionState::free : device::SessionState::lift;
     ticks[k].vessel = k < 500 ? -1 : 0;
   }
   const std::string path = folder / "session.nc";
-  RecordingWriter writer(path, info);
+  device::RecordingWriter writer(path, info);
   writer.append(ticks);
   writer.finish({});
   const Outcome table = run("PROGRAM session " + path + " -o " + folder.path() + "/out 2>&1");

@@ -22,16 +22,16 @@ namespace {
 class LiveAdvised : public testing::Test {
  protected:
   Outcome live(const std::string& arguments) const { return run("PROGRAM live " + arguments + " 2>&1"); }
-  Recording recorded(const std::string& name, const std::string& more) const {
+  device::Recording recorded(const std::string& name, const std::string& more) const {
     const std::string file = folder / (name + ".nc");
     const Outcome outcome = live("--no-clock --seconds 12 --record " + file + " " + more);
     EXPECT_EQ(outcome.code, 0) << outcome.output;
-    return read_recording(file);
+    return device::read_recording(file);
   }
   TemporaryFolder folder;
 };
 
-void expect_same_forces(const Recording& a, const Recording& b) {
+void expect_same_forces(const device::Recording& a, const device::Recording& b) {
   ASSERT_EQ(a.ticks.size(), b.ticks.size());
   for (std::size_t k = 0; k < a.ticks.size(); ++k) {
     ASSERT_EQ(a.ticks[k].device.position, b.ticks[k].device.position) << k;
@@ -58,11 +58,11 @@ TEST_F(LiveAdvised, ComputesOnTheDeviceThatDevicesNames) {
 }
 
 TEST_F(LiveAdvised, WhoFollowsTakesAnotherGripAndRepeats) {
-  const Recording without = recorded("without", ""), one = recorded("one", "--advise --advise-on core --follow-advice"),
-                  two = recorded("two", "--advise --advise-on core --follow-advice");
+  const device::Recording without = recorded("without", ""), one = recorded("one", "--advise --advise-on core --follow-advice"),
+                          two = recorded("two", "--advise --advise-on core --follow-advice");
   expect_same_forces(one, two);
-  const auto grasp = [](const Recording& recording) {
-    for (const Tick& tick : recording.ticks)
+  const auto grasp = [](const device::Recording& recording) {
+    for (const device::Tick& tick : recording.ticks)
       if (tick.grasps == 2) return tick.grasp_height;
     return 0.0;
   };

@@ -94,7 +94,7 @@ TEST(LiveDevice, ALibraryThatExitsOutsideTheLoopIsAFailure) {
     for (const char* function : {"dhdOpenID", "dhdClose"}) {
       DeviceSession session;
       session.action = [](const LiveOptions& options) {
-        find_omega_grippers(options.dhd_library);
+        device::find_omega_grippers(options.dhd_library);
         return ExitCode::done;
       };
       const EndedSession ended = session.run([&](StandIn& dhd, DeviceLog&) { dhd->hooks[function] = leave; });

@@ -175,7 +175,7 @@ TEST(LiveDevice, ASecondThreadThatNeverReturnsIsNotWaitedFor) {
   expect_said(ended, "; zero force was written\n");
   expect_said(ended, "wholehand: live: a second call of the device has not returned for 1 s, and the program ends without it\n");
   EXPECT_EQ(session.log->last().force, 0);
-  EXPECT_GT(read_recording(session.options.record).ticks.size(), 100u);
+  EXPECT_GT(device::read_recording(session.options.record).ticks.size(), 100u);
 }
 
 // A call that never returns, and a library that lets nobody else in: the device's watchdog has the force, and the recording is
@@ -198,10 +198,10 @@ TEST(LiveDevice, ACallThatNeverReturnsEndsTheSession) {
   expect_said(ended, "wholehand: live: a call of the device has not returned for 1 s, and the session is given up; " + left);
   expect_said(ended, "the device's own watchdog takes it away within 20 ms\n");
   EXPECT_GT(session.log->last().force, 0.5) << "and so it is";
-  const Recording recording = read_recording(session.options.record);
+  const device::Recording recording = device::read_recording(session.options.record);
   EXPECT_GT(recording.ticks.size(), 100u);
   ASSERT_TRUE(recording.end);
-  EXPECT_EQ(recording.end->fault, Fault::late);
+  EXPECT_EQ(recording.end->fault, device::Fault::late);
 }
 
 // It lets go of the force and then does not let go of the device: the reason, the report and the exit code come all the same.
@@ -227,10 +227,10 @@ TEST(LiveDevice, ADeviceThatIsNotLeftIsGivenUp) {
       EXPECT_EQ(report["fault"], is_fault ? nlohmann::json("read error") : nlohmann::json());
       EXPECT_EQ(report["force"], "zero force was written");
       EXPECT_GT(report["ticks"], 100);
-      const Recording recording = read_recording(session.options.record);
+      const device::Recording recording = device::read_recording(session.options.record);
       ASSERT_TRUE(recording.end);
-      EXPECT_EQ(recording.end->fault, is_fault ? Fault::read_error : Fault::none);
-      EXPECT_EQ(recording.ticks.back().state, SessionState::released);
+      EXPECT_EQ(recording.end->fault, is_fault ? device::Fault::read_error : device::Fault::none);
+      EXPECT_EQ(recording.ticks.back().state, device::SessionState::released);
     }
   }
 }
@@ -266,9 +266,9 @@ TEST(LiveDevice, AFaultWhoseZeroForceDoesNotReturnIsTold) {
     const auto report = parse_json(ended.printed);
     EXPECT_EQ(report["fault"], "read error");
     EXPECT_EQ(std::string(report["force"]).substr(0, force.size()), force);
-    const Recording recording = read_recording(session.options.record);
+    const device::Recording recording = device::read_recording(session.options.record);
     ASSERT_TRUE(recording.end);
-    EXPECT_EQ(recording.end->fault, Fault::read_error);
+    EXPECT_EQ(recording.end->fault, device::Fault::read_error);
   }
 }
 

@@ -74,7 +74,7 @@ TEST(OpenGripper, RefusesOtherNames) {
 
 TEST(OpenGripper, ThePageIsOneWhereThereIsAPage) {
   const Scene scene = board_scene();
-  ViewInput input(scene);
+  device::ViewInput input(scene);
   EXPECT_EQ(open_gripper("view", scene, 1, "", WATCHDOG, &input)->limits().address, "view");
 }
 
@@ -235,7 +235,7 @@ TEST(Live, AReplayGivesTheSameForcesToTheBit) {
   ASSERT_EQ(once.code, 0) << once.errors;
   const LiveOutcome again = Program("--no-clock --device replay:" + first + " --record " + second).wait();
   ASSERT_EQ(again.code, 0) << again.errors;
-  const Recording a = read_recording(first), b = read_recording(second);
+  const device::Recording a = device::read_recording(first), b = device::read_recording(second);
   ASSERT_GT(a.ticks.size(), 1000u);
   ASSERT_EQ(a.ticks.size(), b.ticks.size());
   int held = 0;
@@ -244,10 +244,10 @@ TEST(Live, AReplayGivesTheSameForcesToTheBit) {
     ASSERT_EQ(a.ticks[k].state, b.ticks[k].state) << k;
     ASSERT_EQ(a.ticks[k].written.arm, b.ticks[k].written.arm) << k;
     ASSERT_EQ(a.ticks[k].written.grip, b.ticks[k].written.grip) << k;
-    held += is_held(a.ticks[k].state);
+    held += device::is_held(a.ticks[k].state);
   }
   EXPECT_GT(held, 100) << "of a session in which something is held";
-  EXPECT_EQ(a.ticks.back().state, SessionState::released);
+  EXPECT_EQ(a.ticks.back().state, device::SessionState::released);
 }
 
 // The recording says whose hand it was: a replay has that hand, and so the same closures.
@@ -258,7 +258,7 @@ TEST(Live, AReplayHasThePersonsHand) {
   ASSERT_EQ(once.code, 0) << once.errors;
   const LiveOutcome again = Program("--no-clock --device replay:" + first + " --record " + second).wait();
   ASSERT_EQ(again.code, 0) << again.errors;
-  const Recording a = read_recording(first), b = read_recording(second);
+  const device::Recording a = device::read_recording(first), b = device::read_recording(second);
   ASSERT_EQ(a.ticks.size(), b.ticks.size());
   for (std::size_t k = 0; k < a.ticks.size(); ++k) {
     ASSERT_EQ(a.ticks[k].closure, b.ticks[k].closure) << k;
@@ -281,15 +281,15 @@ TEST(Live, SignalsEndItCleanly) {
     program.send(signal);
     const LiveOutcome outcome = program.wait();
     EXPECT_EQ(outcome.code, 130) << signal << outcome.errors;
-    const Recording recording = read_recording(file);
+    const device::Recording recording = device::read_recording(file);
     ASSERT_FALSE(recording.ticks.empty());
-    const Tick& last = recording.ticks.back();
-    EXPECT_EQ(last.state, SessionState::released) << signal;
-    EXPECT_EQ(last.fault, Fault::interrupted) << signal;
+    const device::Tick& last = recording.ticks.back();
+    EXPECT_EQ(last.state, device::SessionState::released) << signal;
+    EXPECT_EQ(last.fault, device::Fault::interrupted) << signal;
     EXPECT_EQ(last.written.grip, 0) << signal;
     EXPECT_GT(recording.ticks[recording.ticks.size() - 2].written.grip, 0.5) << "it let go at once";
     ASSERT_TRUE(recording.end);
-    EXPECT_EQ(recording.end->fault, Fault::interrupted);
+    EXPECT_EQ(recording.end->fault, device::Fault::interrupted);
   }
 }
 
@@ -303,7 +303,7 @@ TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
   EXPECT_NE(outcome.output.find("recorded in part in " + file), std::string::npos) << outcome.output;
   EXPECT_EQ(outcome.errors.rfind("wholehand: live: ", 0), 0u) << "told as it happens: " << outcome.errors;
   EXPECT_NE(outcome.errors.find("File too large"), std::string::npos) << outcome.errors;
-  EXPECT_GT(read_recording(file).ticks.size(), 1000u);
+  EXPECT_GT(device::read_recording(file).ticks.size(), 1000u);
 }
 
 // Somebody's file at the recording's name stays, and nothing of the recording is lost.
@@ -322,7 +322,7 @@ TEST(Live, OneLineSaysWhereTheRecordingIsWhenItsNameIsTaken) {
   EXPECT_NE(outcome.output.find("recorded in " + file + ".partial\n"), std::string::npos) << outcome.output;
   EXPECT_EQ(outcome.output.find("another file"), std::string::npos) << "said once: " << outcome.output;
   EXPECT_EQ(file_text(file), "a letter");
-  const Recording recording = read_recording(file + ".partial");
+  const device::Recording recording = device::read_recording(file + ".partial");
   EXPECT_EQ(recording.note, "");
   EXPECT_GT(recording.ticks.size(), 0u);
   EXPECT_TRUE(recording.end);
@@ -371,11 +371,11 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
                  "places: mixing_board");
   // only where places would help
   std::string many;
-  for (int k = 0; k <= LIVE_VESSELS; ++k)
+  for (int k = 0; k <= device::LIVE_VESSELS; ++k)
     many +=
         "[[vessel]]\nname = \"v" + std::to_string(k) + "\"\nshape = \"cylinder\"\ndiameter_mm = 76\nheight_mm = 100\nwall_mm = 2\n";
   write_file(folder / "many.toml", many);
-  expect_refused(folder / "many.toml", 2, "this scene has " + std::to_string(LIVE_VESSELS + 1) + "\n");
+  expect_refused(folder / "many.toml", 2, "this scene has " + std::to_string(device::LIVE_VESSELS + 1) + "\n");
   expect_refused("no_such_scene", 2, "no_such_scene");
   expect_refused("--record " + (folder / "notes.txt"), 2, "notes.txt");
   EXPECT_EQ(file_text(folder / "notes.txt"), "not a recording") << "it is still there";

@@ -59,7 +59,7 @@ TEST(SweepProgram, EitherResumesTheSweepsOfTheOther) {
 TEST(SweepProgram, ASweepOfOtherCodeIsRefused) {
   const TemporaryFolder folder;
   const std::string result = folder / "a.nc", arguments = long_sweep(folder, result), other = folder / "wholehand-sweep",
-                    id = code_id();
+                    id = sweeps::code_id();
   std::string program = file_text(std::string(WHOLEHAND_PROGRAM) + "-sweep");
   const std::size_t at = program.find(id);
   ASSERT_NE(at, std::string::npos);

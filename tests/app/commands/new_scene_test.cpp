@@ -44,7 +44,7 @@ TEST(NewScene, HasWhatWasGivenAndLeavesNothingUnjudged) {
   const double within = M_PI * 0.033 * 0.033 * 0.118;  // of the wall and the floor, m3
   EXPECT_NEAR(capacity_of(scene.vessels[0]), within, 1e-6 * within);
   EXPECT_NE(written.output.find("a vessel that holds 404 mL"), std::string::npos) << written.output;
-  EXPECT_TRUE(idle_notes(scene, Plan(scene, false), static_cast<std::size_t>(scene.output.best)).empty());
+  EXPECT_TRUE(sweeps::idle_notes(scene, sweeps::Plan(scene, false), static_cast<std::size_t>(scene.output.best)).empty());
   ASSERT_EQ(run_in(folder, "new empty --diameter-mm 70 --height-mm 120 --fill-ml 0").code, 0);
   EXPECT_EQ(read_scene_file(folder / "empty.toml").liquid->volumes, std::vector<double>{0});
 }

@@ -35,22 +35,22 @@ constexpr double RATE = 250;  // Hz: umockdev answers within a millisecond or tw
 
 // A machine that is busy with other tests may let no report through within a read's patience. That is no fault of what is tested
 // here.
-class Patient final : public Gripper {
+class Patient final : public device::Gripper {
  public:
-  explicit Patient(std::unique_ptr<Gripper> gripper) : gripper_(std::move(gripper)) {}
-  const GripperLimits& limits() const noexcept override { return gripper_->limits(); }
-  ReadOutcome read(GripperState& state, std::int64_t tick) noexcept override {
-    ReadOutcome outcome = ReadOutcome::timeout;
-    for (int k = 0; k < patience && outcome == ReadOutcome::timeout; ++k) outcome = gripper_->read(state, tick);
+  explicit Patient(std::unique_ptr<device::Gripper> gripper) : gripper_(std::move(gripper)) {}
+  const device::GripperLimits& limits() const noexcept override { return gripper_->limits(); }
+  device::ReadOutcome read(device::GripperState& state, std::int64_t tick) noexcept override {
+    device::ReadOutcome outcome = device::ReadOutcome::timeout;
+    for (int k = 0; k < patience && outcome == device::ReadOutcome::timeout; ++k) outcome = gripper_->read(state, tick);
     return outcome;
   }
-  bool write(const GripperForce& force) noexcept override {
+  bool write(const device::GripperForce& force) noexcept override {
     const bool is_taken = gripper_->write(force);
     // once: a next force may be zero and leave the count. After few writes, as a busy machine leaves out many
     if (is_holding && force.grip != 0 && ++written == 10 && at_work) at_work();
     return is_taken;
   }
-  ReleaseResult release() noexcept override { return gripper_->release(); }
+  device::ReleaseResult release() noexcept override { return gripper_->release(); }
   const char* last_error() const noexcept override { return gripper_->last_error(); }
 
   int patience = 1000, written = 0;
@@ -58,32 +58,32 @@ class Patient final : public Gripper {
   std::function<void()> at_work;         // what happens in mid-session, a force being on the gripper
 
  private:
-  std::unique_ptr<Gripper> gripper_;
+  std::unique_ptr<device::Gripper> gripper_;
 };
 
 struct Carried {
-  std::set<SessionState> states;
-  LoopReport report;
+  std::set<device::SessionState> states;
+  device::LoopReport report;
   double most = 0;        // force at the fingers, N
   bool was_held = false;  // when it ended
 };
 
 // Without a clock, as the mock's goes by what it receives: a machine that stalls takes nothing from the way.
 Carried carry(Patient& gripper, const Scene& scene) {
-  Session session(scene, gripper.limits().gap);
+  device::Session session(scene, gripper.limits().gap);
   Carried carried;
-  SessionState before = SessionState::free;
-  LoopOptions options;
+  device::SessionState before = device::SessionState::free;
+  device::LoopOptions options;
   options.seconds = CARRY_LASTS;
   options.is_simulated = true;
-  HapticLoop loop(
+  device::HapticLoop loop(
       scene.live, gripper, session,
-      [&](const Tick& tick) {
+      [&](const device::Tick& tick) {
         carried.states.insert(tick.state);
         carried.most = std::max(carried.most, tick.written.grip);
-        carried.was_held = is_held(before);
+        carried.was_held = device::is_held(before);
         before = tick.state;
-        gripper.is_holding = is_held(tick.state);
+        gripper.is_holding = device::is_held(tick.state);
         return true;
       },
       options);
@@ -94,10 +94,10 @@ Carried carry(Patient& gripper, const Scene& scene) {
 }
 
 void expect_whole_session(const Carried& carried) {
-  EXPECT_EQ(carried.report.fault, Fault::none) << carried.report.error;
-  for (const SessionState state :
-       {SessionState::free, SessionState::lift, SessionState::tilt, SessionState::slipped, SessionState::released})
-    EXPECT_TRUE(carried.states.count(state)) << SESSION_STATE_NAMES[static_cast<std::size_t>(state)];
+  EXPECT_EQ(carried.report.fault, device::Fault::none) << carried.report.error;
+  for (const device::SessionState state : {device::SessionState::free, device::SessionState::lift, device::SessionState::tilt,
+                                           device::SessionState::slipped, device::SessionState::released})
+    EXPECT_TRUE(carried.states.count(state)) << device::SESSION_STATE_NAMES[static_cast<std::size_t>(state)];
   EXPECT_GT(carried.most, 0.8) << "F_base at least";
   EXPECT_EQ(carried.report.last.grasps, 1);
 }
@@ -109,10 +109,12 @@ MockSettings carrying() {
   return settings;
 }
 
-bool is_no_force(const protocol::OutputReport& report) { return report.arm == std::array<std::int32_t, 3>{} && report.grip == 0; }
+bool is_no_force(const device::protocol::OutputReport& report) {
+  return report.arm == std::array<std::int32_t, 3>{} && report.grip == 0;
+}
 
 // What arrived last; a mock takes a moment to see it.
-protocol::OutputReport last_output(const MockGripper& mock) {
+device::protocol::OutputReport last_output(const MockGripper& mock) {
   for (int k = 0; k < 6000 && !is_no_force(mock.outputs().back()); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return mock.outputs().back();
 }
@@ -141,11 +143,11 @@ TYPED_TEST(OpenGripperSession, ABeakerIsCarriedAndFelt) {
 }
 
 TYPED_TEST(OpenGripperSession, WhateverTheDeviceDoesWrongEndsInNoForce) {
-  const std::vector<std::pair<Mischief, Fault>> wrongs{
-      {Mischief::silent, Fault::timeout},         {Mischief::short_report, Fault::read_error},
-      {Mischief::long_report, Fault::read_error}, {Mischief::wrong_version, Fault::read_error},
-      {Mischief::same_sequence, Fault::stale},    {Mischief::no_rotation, Fault::read_error},
-      {Mischief::wrong_id, Fault::read_error}};
+  const std::vector<std::pair<Mischief, device::Fault>> wrongs{
+      {Mischief::silent, device::Fault::timeout},         {Mischief::short_report, device::Fault::read_error},
+      {Mischief::long_report, device::Fault::read_error}, {Mischief::wrong_version, device::Fault::read_error},
+      {Mischief::same_sequence, device::Fault::stale},    {Mischief::no_rotation, device::Fault::read_error},
+      {Mischief::wrong_id, device::Fault::read_error}};
   for (const auto& [mischief, fault] : wrongs) {
     MockBench bench;
     TypeParam mock(bench, carrying());
@@ -157,7 +159,7 @@ TYPED_TEST(OpenGripperSession, WhateverTheDeviceDoesWrongEndsInNoForce) {
     };
     const Carried carried = carry(gripper, scene);
     EXPECT_EQ(carried.report.fault, fault) << static_cast<int>(mischief) << carried.report.error;
-    EXPECT_EQ(carried.report.last.state, SessionState::released) << static_cast<int>(mischief);
+    EXPECT_EQ(carried.report.last.state, device::SessionState::released) << static_cast<int>(mischief);
     EXPECT_TRUE(carried.was_held) << "a force was on it";
     EXPECT_EQ(carried.report.last.written.grip, 0);
     EXPECT_TRUE(is_no_force(last_output(mock))) << static_cast<int>(mischief);
@@ -171,7 +173,7 @@ TYPED_TEST(OpenGripperSession, GarbageIsAFaultWhateverItSays) {
   Patient gripper(open_gripper(mock.address(), scene, 1, ""));
   gripper.at_work = [&mock] { mock.misbehave(Mischief::garbage); };
   const Carried carried = carry(gripper, scene);
-  EXPECT_NE(carried.report.fault, Fault::none);
+  EXPECT_NE(carried.report.fault, device::Fault::none);
   EXPECT_TRUE(is_no_force(last_output(mock)));
 }
 
@@ -182,19 +184,19 @@ TYPED_TEST(OpenGripperSession, UnpluggingEndsItAndSaysSo) {
   Patient gripper(open_gripper(mock.address(), scene, 1, ""));
   gripper.at_work = [&mock] { mock.unplug(); };
   const Carried carried = carry(gripper, scene);
-  EXPECT_TRUE(carried.report.fault == Fault::read_error || carried.report.fault == Fault::write_error);
+  EXPECT_TRUE(carried.report.fault == device::Fault::read_error || carried.report.fault == device::Fault::write_error);
   EXPECT_NE(carried.report.error.find("unplugged"), std::string::npos) << carried.report.error;
-  EXPECT_EQ(carried.report.last.state, SessionState::released);
+  EXPECT_EQ(carried.report.last.state, device::SessionState::released);
   EXPECT_EQ(carried.report.last.written.grip, 0);
 }
 
 // ---- a process that stalls ----
 
 // In and out of the beaker's side, a second and a half of every two pressed into it.
-GripperState pressing_state(double time) {
+device::GripperState pressing_state(double time) {
   const double phase = std::fmod(time, 2.0),
                in = std::clamp((phase - 0.3) / 0.05, 0.0, 1.0) - std::clamp((phase - 1.9) / 0.05, 0.0, 1.0);
-  GripperState state;
+  device::GripperState state;
   state.position = {0.121 - 0.010 * in, 0.055, 0};
   state.gap = 25e-3;
   return state;
@@ -210,8 +212,8 @@ pid_t start_pressing(const std::string& address) {
   scene.live.jump = 1e6;
   scene.live.late_steps = 1 << 30;
   Patient gripper(open_gripper(address, scene, 1, ""));
-  Session session(scene, gripper.limits().gap);
-  HapticLoop loop(scene.live, gripper, session, {}, {});
+  device::Session session(scene, gripper.limits().gap);
+  device::HapticLoop loop(scene.live, gripper, session, {}, {});
   const std::atomic<bool> stop{false};
   loop.run(stop);
   std::fprintf(stderr, "the session ended: %s\n", loop.report().error.c_str());
@@ -271,15 +273,15 @@ TYPED_TEST(OpenGripperSession, AFullRingLeavesNoForceWhileTheGripperIsStillOpen)
   TypeParam mock(bench, carrying());
   const Scene scene = carried_scene(RATE);
   Patient gripper(open_gripper(mock.address(), scene, 1, ""));
-  Session session(scene, gripper.limits().gap);
+  device::Session session(scene, gripper.limits().gap);
   int held = 0;
-  LoopOptions options;
+  device::LoopOptions options;
   options.is_simulated = true;
-  HapticLoop loop(
-      scene.live, gripper, session, [&held](const Tick& tick) { return !(tick.written.grip > 1 && ++held > 20); }, options);
+  device::HapticLoop loop(
+      scene.live, gripper, session, [&held](const device::Tick& tick) { return !(tick.written.grip > 1 && ++held > 20); }, options);
   const std::atomic<bool> stop{false};
   loop.run(stop);
-  EXPECT_EQ(loop.report().fault, Fault::ring_full);
+  EXPECT_EQ(loop.report().fault, device::Fault::ring_full);
   EXPECT_FALSE(mock.has_force()) << "as soon as the loop has ended";
   EXPECT_TRUE(is_no_force(mock.outputs().back()));
 }
@@ -311,9 +313,9 @@ TYPED_TEST(OpenGripperSession, ASecondSessionIsRefusedAndTheFirstGoesOn) {
 // The same way in the SDK's own axes, a pose a read.
 void script(StandIn& dhd, double rate, bool is_left) {
   for (int k = 0; k < CARRY_LASTS * rate + 10; ++k) {
-    const GripperState state = carried_state(k / rate);
+    const device::GripperState state = carried_state(k / rate);
     StandInPose pose;
-    pose.position = to_dhd(state.position);
+    pose.position = device::to_dhd(state.position);
     pose.gap = state.gap;
     const double side = (is_left ? -1 : 1) * 0.5 * state.gap;
     pose.finger = pose.thumb = pose.position;
@@ -322,10 +324,10 @@ void script(StandIn& dhd, double rate, bool is_left) {
     // its columns are the gripper's axes, under the SDK's names of them
     for (int column = 0; column < 3; ++column) {
       Triple axis{};
-      const Triple name = from_dhd({column == 0 ? 1.0 : 0.0, column == 1 ? 1.0 : 0.0, column == 2 ? 1.0 : 0.0});
+      const Triple name = device::from_dhd({column == 0 ? 1.0 : 0.0, column == 1 ? 1.0 : 0.0, column == 2 ? 1.0 : 0.0});
       for (int row = 0; row < 3; ++row)
         for (int m = 0; m < 3; ++m) axis[row] += state.rotation[3 * row + m] * name[m];
-      const Triple turned = to_dhd(axis);
+      const Triple turned = device::to_dhd(axis);
       for (int row = 0; row < 3; ++row) pose.frame[row][column] = turned[row];
     }
     dhd->motion.push_back(pose);
@@ -364,7 +366,7 @@ TEST(OmegaSession, AReadErrorEndsInNoForceAndSaysTheSdksWords) {
     dhd->codes["dhdGetPositionAndOrientationFrame"] = -1;
   };
   const Carried carried = carry(gripper, scene);
-  EXPECT_EQ(carried.report.fault, Fault::read_error);
+  EXPECT_EQ(carried.report.fault, device::Fault::read_error);
   EXPECT_NE(carried.report.error.find("communication error"), std::string::npos) << carried.report.error;
   EXPECT_EQ(dhd->forces.back(), (std::array<double, 7>{}));
 }

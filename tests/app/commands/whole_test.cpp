@@ -32,9 +32,9 @@ namespace {
 TEST(Whole, EveryGripOfACoarseDefaultSweepAgrees) {
   Scene scene = read_scene_file(find_scene("three_beakers"));
   scene.grips = three_beakers().grips;
-  const auto variables = choose_variables(scene);
-  const Plan plan(scene, keeps_vectors(variables));
-  const FieldSet fields = make_field_set(variable_fields(variables), scene);
+  const auto variables = sweeps::choose_variables(scene);
+  const sweeps::Plan plan(scene, sweeps::keeps_vectors(variables));
+  const FieldSet fields = make_field_set(sweeps::variable_fields(variables), scene);
   const auto truth = make_core_evaluator(scene);
   const auto backend = std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, "vulkan");
   Comparer comparer(scene, *truth, allowance(Precision::single));

@@ -58,8 +58,8 @@ TEST(WrongFiles, EachReaderSaysWhatItWasGiven) {
   const std::vector<Reader> readers{
       {"a scene", {FileKind::scene}, [](const std::string& path) { read_scene_file(path); }},
       {"a mesh", {FileKind::gltf, FileKind::stl, FileKind::obj, FileKind::ply}, read_as_mesh},
-      {"a recording", {FileKind::recording}, [](const std::string& path) { read_recording(path); }},
-      {"a result of a sweep", {FileKind::result}, [](const std::string& path) { SweepResult result(path); }}};
+      {"a recording", {FileKind::recording}, [](const std::string& path) { device::read_recording(path); }},
+      {"a result of a sweep", {FileKind::result}, [](const std::string& path) { sweeps::SweepResult result(path); }}};
   const TemporaryFolder folder;
   for (const Reader& reader : readers)
     for (const Given& given : files_of_all_kinds()) {

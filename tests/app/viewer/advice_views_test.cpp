@@ -22,22 +22,24 @@ struct Advised {
   Advised() : scene(advised_session_scene()), live(scene) {
     LiveScript script = script_for(scene);
     script.height = 0.09;
-    const std::vector<Tick> record = play_session(scene, script);
+    const std::vector<device::Tick> record = play_session(scene, script);
     tick = record[last_free_tick(record)];
-    poses = VesselTracker(scene).poses();
+    poses = device::VesselTracker(scene).poses();
     poses[0].place = {0.3, 0.02, -0.1};  // off the origin, and turned: a forgotten pose shows
     poses[0].rotation = turned('y', 0.4);
-    Adviser adviser(scene, "core", 1);
-    advice = advice_of(live, tick, VesselTracker(scene).poses(), adviser, 1024);
+    device::Adviser adviser(scene, "core", 1);
+    advice = device::advice_of(live, tick, device::VesselTracker(scene).poses(), adviser, 1024);
   }
   Scene scene;
-  LiveScene live;
-  Tick tick;
-  VesselPoses poses;
-  Advice advice;
+  device::LiveScene live;
+  device::Tick tick;
+  device::VesselPoses poses;
+  device::Advice advice;
 };
 
-Triple out(const VesselPose& pose, const Triple& p) { return to_triple(to_vec3(pose.place) + to_mat3(pose.rotation) * to_vec3(p)); }
+Triple out(const device::VesselPose& pose, const Triple& p) {
+  return to_triple(to_vec3(pose.place) + to_mat3(pose.rotation) * to_vec3(p));
+}
 
 TEST(Ghost, IsTheAdvisedHandOnItsVessel) {
   const Advised one;
@@ -46,7 +48,7 @@ TEST(Ghost, IsTheAdvisedHandOnItsVessel) {
   ASSERT_TRUE(ghost);
   for (std::size_t j = 0; j < ghost->joints.size(); ++j)
     EXPECT_LT(distance(ghost->joints[j].place, out(one.poses[0], one.advice.posed.posed[j])), 1e-12);
-  Advice good = one.advice;
+  device::Advice good = one.advice;
   good.is_better = false;
   EXPECT_FALSE(ghost_of(one.scene, good, one.poses));
   EXPECT_FALSE(ghost_of(one.scene, {}, one.poses));
@@ -59,12 +61,12 @@ TEST(ViewFrame, TellsTheAdvice) {
   frame.advice = frame_advice(one.scene, one.advice, one.poses);
   const nlohmann::json advice = parse_json(frame_json(frame))["advice"];
   EXPECT_EQ(advice["vessel"], 0);
-  EXPECT_EQ(advice["words"], advice_words(one.advice));
+  EXPECT_EQ(advice["words"], device::advice_words(one.advice));
   EXPECT_EQ(advice["to"].get<float>(), static_cast<float>(one.advice.best->effort));
   ASSERT_EQ(advice["joints"].size(), 24u);
   EXPECT_EQ(advice["joints"][8][0].get<float>(), static_cast<float>(frame.advice->ghost->joints[8].place[0]));
   EXPECT_EQ(advice["wrist"][1].get<float>(), static_cast<float>(frame.advice->ghost->wrist.place[1]));
-  Advice impossible = one.advice;
+  device::Advice impossible = one.advice;
   impossible.present.is_possible = false;
   impossible.is_better = false;
   frame.advice = frame_advice(one.scene, impossible, one.poses);
@@ -77,9 +79,9 @@ TEST(OscStream, SendsTheAdvice) {
   const Advised one;
   OscListener listener;
   OscStream stream(listener.target(), one.live);
-  const HandView hand = hand_view(one.live, one.tick, one.poses);
-  const DisplayTiming timing;
-  const auto sent = [&](const Advice* advice) {
+  const device::HandView hand = device::hand_view(one.live, one.tick, one.poses);
+  const device::DisplayTiming timing;
+  const auto sent = [&](const device::Advice* advice) {
     stream.show({one.tick, one.poses, hand, timing, advice});
     std::map<std::string, OscMessage> found;
     for (const OscMessage& message : listener.frame())
@@ -88,7 +90,7 @@ TEST(OscStream, SendsTheAdvice) {
   };
   EXPECT_TRUE(sent(nullptr).empty());
   auto messages = sent(&one.advice);
-  EXPECT_EQ(text(messages.at("/wholehand/advice/words")), advice_words(one.advice));
+  EXPECT_EQ(text(messages.at("/wholehand/advice/words")), device::advice_words(one.advice));
   EXPECT_EQ(whole(messages.at("/wholehand/advice/vessel")), 0);
   EXPECT_EQ(text(messages.at("/wholehand/advice/vessel"), 1), one.scene.vessels[0].name);
   EXPECT_EQ(whole(messages.at("/wholehand/advice/better")), 1);
@@ -99,7 +101,7 @@ TEST(OscStream, SendsTheAdvice) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(number(wrist, k), static_cast<float>(ghost->wrist.place[k]));
   EXPECT_EQ(messages.size(), 5u + 25u);
   // no vessel is near: the messages say that there is no advice
-  messages = sent(std::make_unique<Advice>().get());
+  messages = sent(std::make_unique<device::Advice>().get());
   EXPECT_EQ(messages.size(), 3u);
   EXPECT_EQ(whole(messages.at("/wholehand/advice/vessel")), -1);
 }

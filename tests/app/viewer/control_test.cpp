@@ -40,7 +40,7 @@ std::string with(const char* key, const json& value) {
 }
 
 TEST(ViewControl, TakesWhatAPagePosts) {
-  const ViewControl control = parse_view_control(json_text(good()));
+  const device::ViewControl control = parse_view_control(json_text(good()));
   EXPECT_EQ(control.position, (Triple{0.1, -0.2, 0.3}));
   EXPECT_EQ(control.gap, 0.08);
   EXPECT_EQ(control.buttons, 3u);

@@ -53,7 +53,7 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
   EXPECT_EQ(seen["table_y"], 0);
   EXPECT_EQ(seen["target"]["place"], json(scene.task->target_place));
   EXPECT_EQ(seen["target"]["diameter"], scene.task->target_diameter);
-  EXPECT_EQ(seen["target"]["wall"], TARGET_WALL);
+  EXPECT_EQ(seen["target"]["wall"], device::TARGET_WALL);
   EXPECT_EQ(seen["destination"], json(scene.task->destination));
   ASSERT_EQ(seen["amounts"].size(), 3u);
   EXPECT_EQ(seen["amounts"][0], json({{"liquid", "blue"}, {"target_m3", 50e-6}}));
@@ -92,7 +92,7 @@ double distance_to(const json& line, double r, double y) {
 TEST(ViewScene, OutlinesAndWallsAreThoseOfTheVessels) {
   const Scene scene = read_scene_file(find_scene("mixing_board"));
   const json seen = parse_json(view_scene_json(scene, {}));
-  const LiveScene live(scene);
+  const device::LiveScene live(scene);
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const json& vessel = seen["vessels"][v];
     EXPECT_EQ(vessel["name"], scene.vessels[v].name);
@@ -135,7 +135,7 @@ TEST(ViewScene, ALeftHandsGuidanceIsInTheScenesOwnWorld) {
   EXPECT_EQ(left["handedness"], "left");
   EXPECT_EQ(left["vessels"], right["vessels"]);
   // and where the session has it, mirrored
-  const LiveScene live(scene);
+  const device::LiveScene live(scene);
   const core_f64::Vec3 there = live.vessels[1].guidance[0];
   EXPECT_NEAR(left["vessels"][1]["guidance"][0][0].get<double>(), -there.x, 1e-9);
   EXPECT_NEAR(left["vessels"][1]["guidance"][0][2].get<double>(), there.z, 1e-9);

@@ -46,18 +46,18 @@ void expect_turned(const json& quaternion, const Rotation& r) {
 }
 
 struct Moment {
-  Tick tick;
-  VesselPoses poses;
+  device::Tick tick;
+  device::VesselPoses poses;
 };
 
 // Ticks of a session that lifts, tilts, pours and loses a beaker, one of each state at least.
 std::vector<Moment> moments(const Scene& scene) {
   LiveScript script;
   script.vessel = scene.vessels[0].place;
-  Session session(scene, own_gap(scene.hand));
+  device::Session session(scene, own_gap(scene.hand));
   std::vector<Moment> seen;
   for (std::int64_t n = 0; n < static_cast<std::int64_t>(script.seconds() * script.rate); ++n) {
-    Tick tick;
+    device::Tick tick;
     session.step(script.at(n), n, tick);
     tick.written.grip = 0.5 * tick.wanted.grip;
     if (n % 50 == 0) seen.push_back({tick, session.poses()});
@@ -68,10 +68,10 @@ std::vector<Moment> moments(const Scene& scene) {
 // One frame beside what it was made of.
 struct Shown {
   const Scene& scene;
-  const LiveScene& live;
-  const Tick& tick;
-  const VesselPoses& poses;
-  const HandView& hand;
+  const device::LiveScene& live;
+  const device::Tick& tick;
+  const device::VesselPoses& poses;
+  const device::HandView& hand;
 };
 
 // Fields by their place in the frame (a JSON pointer): whole values ..
@@ -83,7 +83,7 @@ struct WholeField {
 constexpr WholeField WHOLE_FIELDS[] = {
     {"/t", [](const Shown& s) { return json(static_cast<double>(s.tick.number) / s.scene.live.rate); }},
     {"/tick", [](const Shown& s) { return json(s.tick.number); }},
-    {"/state", [](const Shown& s) { return json(SESSION_STATE_NAMES[static_cast<std::size_t>(s.tick.state)]); }},
+    {"/state", [](const Shown& s) { return json(device::SESSION_STATE_NAMES[static_cast<std::size_t>(s.tick.state)]); }},
     {"/vessel", [](const Shown& s) { return json(s.tick.vessel); }},
     {"/guidance", [](const Shown& s) { return json(s.tick.guidance); }},
     {"/done", [](const Shown& s) { return json(s.tick.task_done); }},
@@ -107,7 +107,7 @@ constexpr NumberField NUMBER_FIELDS[] = {
     {"/forces/weight", [](const Shown& s) { return s.tick.weight; }},
     {"/forces/torque", [](const Shown& s) { return s.tick.torque; }},
     {"/forces/written", [](const Shown& s) { return s.tick.written.grip; }},
-    {"/forces/base", [](const Shown& s) { return is_held(s.tick.state) ? s.scene.force.base : 0; }},
+    {"/forces/base", [](const Shown& s) { return device::is_held(s.tick.state) ? s.scene.force.base : 0; }},
     {"/amounts/0/arrived", [](const Shown& s) { return s.tick.arrived[0]; }},
     {"/spilled", [](const Shown& s) { return s.tick.spilled[0] + s.tick.spilled[1]; }},
     {"/target_volume", [](const Shown& s) { return s.tick.arrived[0] + s.tick.arrived[1]; }},
@@ -123,7 +123,7 @@ struct OptionalField {
 
 constexpr OptionalField OPTIONAL_FIELDS[] = {
     {"/forces/hold", [](const Shown& s) { return std::isfinite(s.tick.hold_force); }},
-    {"/stream", [](const Shown& s) { return pouring_stream(s.live, s.tick, 0).has_value(); }},
+    {"/stream", [](const Shown& s) { return device::pouring_stream(s.live, s.tick, 0).has_value(); }},
 };
 
 // .. and objects by their keys.
@@ -148,7 +148,7 @@ void expect_fields(const json& seen, const Shown& shown) {
 }
 
 void expect_hand(const json& seen, const Shown& shown) {
-  const HandView& hand = shown.hand;
+  const device::HandView& hand = shown.hand;
   ASSERT_EQ(seen["joints"].size(), static_cast<std::size_t>(JOINT_COUNT));
   ASSERT_EQ(seen["rigged"].size(), static_cast<std::size_t>(JOINT_COUNT));
   const std::string contacts = seen["contacts"];
@@ -167,12 +167,12 @@ void expect_vessels(const json& seen, const Shown& shown) {
   ASSERT_EQ(seen["vessels"].size(), shown.scene.vessels.size());
   for (std::size_t v = 0; v < shown.scene.vessels.size(); ++v) {
     const json& vessel = seen["vessels"][v];
-    const VesselPose& pose = shown.poses[v];
+    const device::VesselPose& pose = shown.poses[v];
     EXPECT_EQ(keys_of(vessel), (std::set<std::string>{"place", "rotation", "volume", "up", "level"}));
     expect_seen(vessel["place"], pose.place, "place");
     EXPECT_TRUE(is_seen(vessel["volume"], shown.tick.volume[v]));
-    const LiveScene& live = shown.live;
-    const auto surface = liquid_surface(live.vessels[v].vessel, live.quadrature, shown.tick.volume[v], pose.rotation);
+    const device::LiveScene& live = shown.live;
+    const auto surface = device::liquid_surface(live.vessels[v].vessel, live.quadrature, shown.tick.volume[v], pose.rotation);
     EXPECT_EQ(vessel["level"].is_null(), !surface.has_value());
     EXPECT_TRUE(!surface || is_seen(vessel["level"], surface->level));
     expect_seen(vessel["up"], {pose.rotation[3], pose.rotation[4], pose.rotation[5]}, "up");
@@ -182,13 +182,13 @@ void expect_vessels(const json& seen, const Shown& shown) {
 
 TEST(ViewFrame, TellsEveryFieldOfATick) {
   const Scene scene = live_scene();
-  const LiveScene live(scene);
+  const device::LiveScene live(scene);
   FrameMaker maker(live);
   std::set<std::string> states;
   bool has_stream = false;
   for (const auto& [tick, poses] : moments(scene)) {
     SCOPED_TRACE("tick " + std::to_string(tick.number));
-    const HandView hand = hand_view(live, tick, poses);
+    const device::HandView hand = device::hand_view(live, tick, poses);
     const std::string text = frame_json(maker.make(tick, poses, hand, {999, 4e-6, 3}));
     EXPECT_EQ(text.find('\n'), std::string::npos);
     const json seen = parse_json(text);
@@ -199,7 +199,7 @@ TEST(ViewFrame, TellsEveryFieldOfATick) {
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_EQ(seen["amounts"].size(), 1u);
     states.insert(seen["state"]);
-    if (const auto stream = pouring_stream(live, tick, 0)) {
+    if (const auto stream = device::pouring_stream(live, tick, 0)) {
       has_stream = true;
       expect_seen(seen["stream"]["from"], stream->from, "from");
       expect_seen(seen["stream"]["to"], stream->to, "to");
@@ -210,7 +210,7 @@ TEST(ViewFrame, TellsEveryFieldOfATick) {
   for (const char* state : {"free", "lift", "tilt", "maintain", "slipped"}) EXPECT_TRUE(states.count(state)) << state;
 }
 
-void expect_pressed(const json& seen, const HandPress& press) {
+void expect_pressed(const json& seen, const device::HandPress& press) {
   EXPECT_EQ(keys_of(seen), (std::set<std::string>{"digit", "place", "normal", "force"}));
   EXPECT_EQ(seen["digit"], press.digit);
   expect_seen(seen["place"], press.place, "place");
@@ -223,15 +223,15 @@ TEST(ViewFrame, TellsWhatHoldingTakesOfTheHand) {
   Scene scene = live_scene();
   scene.strength.emplace();
   scene.strength->by_opening = false;
-  const LiveScene live(scene);
+  const device::LiveScene live(scene);
   FrameMaker maker(live);
   int held = 0;
   for (const auto& [tick, poses] : moments(scene)) {
     SCOPED_TRACE("tick " + std::to_string(tick.number));
-    const HandView hand = hand_view(live, tick, poses);
+    const device::HandView hand = device::hand_view(live, tick, poses);
     const json seen = parse_json(frame_json(maker.make(tick, poses, hand, {})));
-    ASSERT_EQ(seen.contains("holding"), is_held(tick.state));
-    if (!is_held(tick.state)) {
+    ASSERT_EQ(seen.contains("holding"), device::is_held(tick.state));
+    if (!device::is_held(tick.state)) {
       EXPECT_TRUE(seen["forces"]["hold"].is_null());
       continue;
     }
@@ -252,7 +252,7 @@ TEST(ViewFrame, TellsWhatHoldingTakesOfTheHand) {
 TEST(ViewFrame, WhatNoForceHoldsIsNull) {
   constexpr double INFINITE = std::numeric_limits<double>::infinity();
   ViewFrame frame;
-  frame.hand.hold = HandHold{INFINITE, INFINITE, INFINITE, 25, {}};
+  frame.hand.hold = device::HandHold{INFINITE, INFINITE, INFINITE, 25, {}};
   frame.hold = frame.hand.hold->force();
   const json seen = parse_json(frame_json(frame));
   EXPECT_EQ(seen["holding"], json({{"effort", nullptr},
@@ -273,7 +273,7 @@ TEST(ViewFrame, WhatIsNoNumberIsNull) {
   const json seen = parse_json(frame_json(frame));
   EXPECT_TRUE(seen["forces"]["hold"].is_null());
   EXPECT_EQ(seen["forces"]["hold_infinite"], true);
-  frame.hold = Tick::NONE;
+  frame.hold = device::Tick::NONE;
   EXPECT_FALSE(parse_json(frame_json(frame))["forces"].contains("hold_infinite")) << "there is none";
   EXPECT_TRUE(seen["forces"]["feedback"].is_null());
   EXPECT_TRUE(seen["forces"]["written"].is_null()) << "there is no gripper";
@@ -284,11 +284,11 @@ TEST(ViewFrame, WhatIsNoNumberIsNull) {
 // What is kept of a vessel that rests is what would be found anew.
 TEST(ViewFrame, AKeptSurfaceIsTheSame) {
   const Scene scene = live_scene();
-  const LiveScene live(scene);
+  const device::LiveScene live(scene);
   FrameMaker kept(live);
   for (const auto& [tick, poses] : moments(scene)) {
     FrameMaker anew(live);
-    const HandView hand = hand_view(live, tick, poses);
+    const device::HandView hand = device::hand_view(live, tick, poses);
     EXPECT_EQ(frame_json(kept.make(tick, poses, hand, {})), frame_json(anew.make(tick, poses, hand, {})));
   }
 }

@@ -51,9 +51,9 @@ std::vector<ViewedGrip> some_grips() {
 }
 
 // What `grip --json` says of it.
-json report_of(const Scene& scene, const ViewedGrip& grip, const StateAxes& axes) {
-  return parse_json(
-      grip_json(make_grip_report(scene, grip.vessel, grip.grip, axes, open_grip_methods(scene, "core", Precision::full))));
+json report_of(const Scene& scene, const ViewedGrip& grip, const sweeps::StateAxes& axes) {
+  return parse_json(sweeps::grip_json(
+      sweeps::make_grip_report(scene, grip.vessel, grip.grip, axes, sweeps::open_grip_methods(scene, "core", Precision::full))));
 }
 
 TEST(GripsView, AFrameIsWhatGripTells) {
@@ -65,7 +65,7 @@ TEST(GripsView, AFrameIsWhatGripTells) {
     const GripsView view(scene, grips, notes);
     ASSERT_EQ(view.size(), grips.size());
     for (std::size_t g = 0; g < grips.size(); ++g) {
-      const StateAxes axes{{0, 0.5, 0.9}, {0, 0.4, radians(100)}};
+      const sweeps::StateAxes axes{{0, 0.5, 0.9}, {0, 0.4, radians(100)}};
       const json reported = report_of(scene, grips[g], axes);
       for (const json& state : reported["states"]) {
         const ViewFrame frame = view.frame(g, state["fill"], state["tilt_rad"]);
@@ -77,10 +77,12 @@ TEST(GripsView, AFrameIsWhatGripTells) {
                      rigged = back * (to_vec3(frame.hand.rigged[j]) - to_vec3(vessel.pose.place));
           EXPECT_LT(glm::length(seen - to_vec3(reported["proxies_m"][j].get<Triple>())), 1e-14) << j;
           EXPECT_LT(glm::length(rigged - to_vec3(reported["joints_m"][j].get<Triple>())), 1e-14) << j;
-          const PointContact contact = frame.hand.contact[j];
-          EXPECT_EQ(contact != PointContact::free && contact != PointContact::tracked, reported["touching"][j].get<bool>()) << j;
+          const device::PointContact contact = frame.hand.contact[j];
+          EXPECT_EQ(contact != device::PointContact::free && contact != device::PointContact::tracked,
+                    reported["touching"][j].get<bool>())
+              << j;
           if (j != THUMB_TIP && j != INDEX_TIP) {
-            EXPECT_EQ(contact == PointContact::projected, !reported["projected"][j].is_null()) << j;
+            EXPECT_EQ(contact == device::PointContact::projected, !reported["projected"][j].is_null()) << j;
           }
         }
         EXPECT_EQ(frame.feedback, state["feedback_force_N"]);
@@ -113,26 +115,27 @@ TEST(GripsView, AFrameHasTheHoldThatGripTells) {
     const std::vector<ViewedGrip> grips = some_grips();
     const GripsView view(scene, grips, notes);
     for (std::size_t g = 0; g < grips.size(); ++g) {
-      GripReport report = make_grip_report(scene, grips[g].vessel, grips[g].grip, {{0, 0.9}, {0, 0.4, radians(100)}},
-                                           open_grip_methods(scene, "core", Precision::full));
-      add_holding(report, scene, grips[g].vessel);
+      sweeps::GripReport report =
+          sweeps::make_grip_report(scene, grips[g].vessel, grips[g].grip, {{0, 0.9}, {0, 0.4, radians(100)}},
+                                   sweeps::open_grip_methods(scene, "core", Precision::full));
+      sweeps::add_holding(report, scene, grips[g].vessel);
       for (std::size_t k = 0; k < report.holds.size(); ++k) {
-        const GripState& state = report.answer.states[k];
+        const sweeps::GripState& state = report.answer.states[k];
         const ViewFrame frame = view.frame(g, state.fill, state.tilt);
-        const StateHold& reported = report.holds[k];
+        const sweeps::StateHold& reported = report.holds[k];
         ASSERT_TRUE(frame.hand.hold);
-        const HandHold& seen = *frame.hand.hold;
+        const device::HandHold& seen = *frame.hand.hold;
         EXPECT_EQ(seen.effort, reported.effort);
         EXPECT_EQ(seen.low, reported.low);
         EXPECT_EQ(seen.tips, reported.tips);
         EXPECT_EQ(frame.hold, reported.strength.digits[1] * reported.effort) << "the index finger is the weaker one";
         EXPECT_EQ(seen.presses.empty(), std::isinf(reported.effort));
         Vec3 sum(0);
-        const VesselPose& pose = frame.vessels[grips[g].vessel].pose;
-        for (const HandPress& press : seen.presses) {
+        const device::VesselPose& pose = frame.vessels[grips[g].vessel].pose;
+        for (const device::HandPress& press : seen.presses) {
           sum += to_vec3(press.force);
           const Vec3 place = glm::transpose(to_mat3(pose.rotation)) * (to_vec3(press.place) - to_vec3(pose.place));
-          EXPECT_TRUE(std::any_of(reported.contacts.begin(), reported.contacts.end(), [&](const HeldContact& contact) {
+          EXPECT_TRUE(std::any_of(reported.contacts.begin(), reported.contacts.end(), [&](const sweeps::HeldContact& contact) {
             const Vec3 force = to_mat3(pose.rotation) * to_vec3(contact.force);
             return contact.digit == press.digit && glm::length(place - to_vec3(contact.point)) < 1e-12 &&
                    glm::length(force - to_vec3(press.force)) < 1e-12;
@@ -160,9 +163,9 @@ TEST(GripsView, TheScoreOfAListIsShown) {
   grips[1].score = 0.125;
   const Scene scene = beakers();
   const GripsView view(scene, grips, notes);
-  const json shown = parse_json(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  const json shown = parse_json(view.content("", sweeps::scene_axes(scene, 0)).scene)["grips"];
   EXPECT_EQ(shown[1]["score"], 0.125);
-  const double own = report_of(scene, grips[0], scene_axes(scene, 0))["score"];
+  const double own = report_of(scene, grips[0], sweeps::scene_axes(scene, 0))["score"];
   EXPECT_NEAR(shown[0]["score"].get<double>(), own, 1e-12);
 }
 
@@ -176,7 +179,7 @@ TEST(GripsView, TheRefinedGripIsToldBesideTheSweptOne) {
   grips[1].refined->grip.height += 1.5e-3;
   grips[1].refined->grip.roll -= 0.02;
   const GripsView view(scene, grips, notes);
-  const json shown = parse_json(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  const json shown = parse_json(view.content("", sweeps::scene_axes(scene, 0)).scene)["grips"];
   EXPECT_FALSE(shown[0].contains("refined"));
   EXPECT_EQ(shown[1]["refined"]["score"], 0.875);
   EXPECT_EQ(shown[1]["refined"]["height_m"], grips[1].refined->grip.height);
@@ -191,7 +194,7 @@ TEST(GripsView, RobustScoresAreToldOfGripsThatHaveThem) {
   grips[1].robust = RobustView{0.625, 0.25};
   const Scene scene = beakers();
   const GripsView view(scene, grips, notes);
-  const json shown = parse_json(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  const json shown = parse_json(view.content("", sweeps::scene_axes(scene, 0)).scene)["grips"];
   EXPECT_FALSE(shown[0].contains("robust"));
   EXPECT_EQ(shown[1]["robust"]["mean"], 0.625);
   EXPECT_EQ(shown[1]["robust"]["low"], 0.25);
@@ -204,11 +207,11 @@ TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
   const GripsView view(scene, grips, notes);
   for (std::size_t g = 0; g < grips.size(); ++g) {
     const core_f64::Vessel glass = ready_vessel(scene.vessels[grips[g].vessel]);
-    const Vec3 pour = to_vec3(pour_direction(scene, grips[g].grip)), pivot = to_vec3(view.result(g).midpoint);
+    const Vec3 pour = to_vec3(sweeps::pour_direction(scene, grips[g].grip)), pivot = to_vec3(view.result(g).midpoint);
     double before = -1;
     for (double tilt = 0; tilt <= PI; tilt += 0.05) {
       const ViewFrame frame = view.frame(g, 1, tilt);
-      const VesselPose& pose = frame.vessels[grips[g].vessel].pose;
+      const device::VesselPose& pose = frame.vessels[grips[g].vessel].pose;
       const Mat3 turn = to_mat3(pose.rotation);
       EXPECT_LT(glm::length(turn[1] - std::cos(tilt) * Vec3(0, 1, 0) - std::sin(tilt) * pour), 1e-12);
       EXPECT_NEAR(glm::determinant(turn), 1, 1e-12);
@@ -268,14 +271,14 @@ TEST(GripsView, TheListTellsEachGripAndItsTerms) {
   std::vector<std::string> notes;
   const std::vector<ViewedGrip> grips = some_grips();
   const GripsView view(scene, grips, notes);
-  const ViewContent content = view.content("best", scene_axes(scene, 0));
+  const ViewContent content = view.content("best", sweeps::scene_axes(scene, 0));
   const json seen = parse_json(content.scene);
   EXPECT_EQ(seen["mode"], "grips");
   EXPECT_EQ(seen["fills"], json(scene.liquid->fills));
   EXPECT_EQ(seen["tilts"], json(scene.tilts));
   ASSERT_EQ(seen["grips"].size(), grips.size());
   for (std::size_t g = 0; g < grips.size(); ++g) {
-    const json &listed = seen["grips"][g], reported = report_of(scene, grips[g], scene_axes(scene, 0));
+    const json &listed = seen["grips"][g], reported = report_of(scene, grips[g], sweeps::scene_axes(scene, 0));
     EXPECT_EQ(listed["vessel"], grips[g].vessel);
     EXPECT_EQ(listed["label"], grips[g].label);
     EXPECT_EQ(listed["score"], reported["score"]);
@@ -310,7 +313,7 @@ TEST(GripsView, SafeToTheEndMeansAtEveryTiltThatCounts) {
   scene.force.grip_strength = 1e6;
   std::vector<std::string> notes;
   const GripsView view(scene, some_grips(), notes);
-  const json grips = parse_json(view.content("best", scene_axes(scene, 0)).scene)["grips"];
+  const json grips = parse_json(view.content("best", sweeps::scene_axes(scene, 0)).scene)["grips"];
   ASSERT_EQ(grips.size(), some_grips().size());
   const auto is_end = [](const json& grip) { return grip["safe_to_end"] == true; };
   EXPECT_TRUE(std::any_of(grips.begin(), grips.end(), is_end)) << grips;
@@ -320,7 +323,7 @@ TEST(GripsView, SafeToTheEndMeansAtEveryTiltThatCounts) {
     }
   }
   scene.force.grip_strength = 1e-3;
-  const json weak = parse_json(GripsView(scene, some_grips(), notes).content("best", scene_axes(scene, 0)).scene)["grips"];
+  const json weak = parse_json(GripsView(scene, some_grips(), notes).content("best", sweeps::scene_axes(scene, 0)).scene)["grips"];
   ASSERT_EQ(weak.size(), some_grips().size());
   for (const json& grip : weak) EXPECT_FALSE(is_end(grip));
 }
@@ -344,8 +347,9 @@ TEST(GripsView, WhatIsAskedForMovesTheSlidersAndNotTheForces) {
   const Scene scene = beakers();
   std::vector<std::string> notes;
   const GripsView view(scene, {some_grips()[0]}, notes);
-  const StateAxes asked{{0.3}, {0, radians(120)}};
-  const json seen = parse_json(view.content("one", asked).scene), own = parse_json(view.content("one", scene_axes(scene, 0)).scene);
+  const sweeps::StateAxes asked{{0.3}, {0, radians(120)}};
+  const json seen = parse_json(view.content("one", asked).scene),
+             own = parse_json(view.content("one", sweeps::scene_axes(scene, 0)).scene);
   EXPECT_EQ(seen["fills"], json(asked.fills));
   EXPECT_EQ(seen["tilts"], json(asked.tilts));
   EXPECT_EQ(seen["grips"], own["grips"]);
@@ -355,7 +359,7 @@ TEST(GripsView, ASceneWithoutLiquidAndTiltsIsShownToo) {
   const Scene scene = scene_of({beaker1()});
   std::vector<std::string> notes;
   const GripsView view(scene, {some_grips()[0]}, notes);
-  const json seen = parse_json(view.content("bare", scene_axes(scene, 0)).scene);
+  const json seen = parse_json(view.content("bare", sweeps::scene_axes(scene, 0)).scene);
   EXPECT_EQ(seen["fills"], json({0.0}));
   EXPECT_TRUE(seen["tilts"].empty());
   EXPECT_FALSE(seen["grips"][0]["terms"].contains("force"));

@@ -52,7 +52,7 @@ class Socket {
 TEST(OscStream, DatagramsStaySmallAndEachSaysItsFrame) {
   Scene scene = live_scene();
   scene.vessels.resize(1);
-  for (int v = 1; v < LIVE_VESSELS; ++v) {
+  for (int v = 1; v < device::LIVE_VESSELS; ++v) {
     VesselData vessel = cylinder(std::string(60, 'v') + std::to_string(v), 60, 90, 1.5);
     vessel.place = {0.2 * v, 0, 0};
     scene.vessels.push_back(vessel);
@@ -91,7 +91,7 @@ TEST(OscStream, AReceiverThatIsNotThereOrDoesNotReadIsNoTrouble) {
   OscStream to_nobody({"127.0.0.1", free_port}, played.session.live());
   Socket deaf;  // its buffer is full soon
   OscStream to_deaf({"127.0.0.1", deaf.port}, played.session.live());
-  const DisplayMoment moment = played.at(10);
+  const device::DisplayMoment moment = played.at(10);
   for (int k = 0; k < 500; ++k) {
     to_nobody.show(moment);
     to_deaf.show(moment);
@@ -106,7 +106,7 @@ TEST(OscStream, AReceiverThatIsNotThereOrDoesNotReadIsNoTrouble) {
 
 TEST(OscStream, SaysWhenItLeavesTheMachine) {
   const Scene scene = live_scene();
-  const LiveScene live(scene);
+  const device::LiveScene live(scene);
   EXPECT_EQ(OscStream({"localhost", 9000}, live).note(), "");
   EXPECT_EQ(OscStream({"127.255.0.3", 9000}, live).note(), "");
   // nothing is sent before the first frame
@@ -116,7 +116,7 @@ TEST(OscStream, SaysWhenItLeavesTheMachine) {
 }
 
 TEST(OscStream, AHostThatIsNotKnownIsAFailureInOneLine) {
-  const LiveScene live(live_scene());
+  const device::LiveScene live(live_scene());
   try {
     OscStream({"a..b", 9000}, live);
     ADD_FAILURE();

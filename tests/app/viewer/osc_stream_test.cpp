@@ -60,7 +60,7 @@ struct Frame {
   }
 };
 
-void expect_joints(Frame& frame, const HandView& hand) {
+void expect_joints(Frame& frame, const device::HandView& hand) {
   const OscMessage contacts = frame.take("/wholehand/hand/contacts");
   ASSERT_EQ(contacts.arguments.size(), 24u);
   expect_place(frame.take("/wholehand/joint/XR_HAND_JOINT_WRIST_EXT"), hand.wrist);
@@ -80,31 +80,31 @@ void expect_joints(Frame& frame, const HandView& hand) {
   }
 }
 
-void expect_forces(Frame& frame, const Scene& scene, const DisplayMoment& moment) {
-  const Tick& tick = moment.tick;
+void expect_forces(Frame& frame, const Scene& scene, const device::DisplayMoment& moment) {
+  const device::Tick& tick = moment.tick;
   EXPECT_EQ(number(frame.take("/wholehand/force/feedback")), static_cast<float>(tick.feedback));
-  EXPECT_EQ(number(frame.take("/wholehand/force/base")), is_held(tick.state) ? static_cast<float>(scene.force.base) : 0);
+  EXPECT_EQ(number(frame.take("/wholehand/force/base")), device::is_held(tick.state) ? static_cast<float>(scene.force.base) : 0);
   EXPECT_EQ(number(frame.take("/wholehand/force/normal")), static_cast<float>(tick.normal_force));
   EXPECT_EQ(number(frame.take("/wholehand/force/opening")), static_cast<float>(tick.opening_force));
   EXPECT_EQ(number(frame.take("/wholehand/force/user")), static_cast<float>(tick.user_force));
-  const std::optional<HandHold>& hold = moment.hand.hold;
+  const std::optional<device::HandHold>& hold = moment.hand.hold;
   expect_holding(frame.take("/wholehand/force/hold"), hold ? hold->force() : tick.hold_force);
   if (scene.strength) {
-    EXPECT_EQ(hold.has_value(), is_held(tick.state));
-    expect_holding(frame.take("/wholehand/force/tips_hold"), hold ? hold->tips_force() : Tick::NONE);
-    expect_holding(frame.take("/wholehand/hand/effort"), hold ? hold->effort : Tick::NONE);
-    expect_holding(frame.take("/wholehand/hand/tips_effort"), hold ? hold->tips : Tick::NONE);
+    EXPECT_EQ(hold.has_value(), device::is_held(tick.state));
+    expect_holding(frame.take("/wholehand/force/tips_hold"), hold ? hold->tips_force() : device::Tick::NONE);
+    expect_holding(frame.take("/wholehand/hand/effort"), hold ? hold->effort : device::Tick::NONE);
+    expect_holding(frame.take("/wholehand/hand/tips_effort"), hold ? hold->tips : device::Tick::NONE);
   }
   EXPECT_EQ(number(frame.take("/wholehand/force/weight")), static_cast<float>(tick.weight));
   EXPECT_EQ(number(frame.take("/wholehand/force/torque")), static_cast<float>(tick.torque));
 }
 
-void expect_frame(const std::map<std::string, OscMessage>& messages, const Scene& scene, const DisplayMoment& moment) {
+void expect_frame(const std::map<std::string, OscMessage>& messages, const Scene& scene, const device::DisplayMoment& moment) {
   Frame frame{messages};
-  const Tick& tick = moment.tick;
+  const device::Tick& tick = moment.tick;
   const OscMessage state = frame.take("/wholehand/state");
   EXPECT_EQ(whole(state), static_cast<int>(tick.state));
-  EXPECT_EQ(text(state, 1), SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)]);
+  EXPECT_EQ(text(state, 1), device::SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)]);
   EXPECT_EQ(text(frame.take("/wholehand/hand/side")), scene.hand.handedness == Handedness::left ? "left" : "right");
   EXPECT_EQ(number(frame.take("/wholehand/hand/closure")), static_cast<float>(tick.closure));
   EXPECT_EQ(number(frame.take("/wholehand/hand/gap")), static_cast<float>(tick.gap));
@@ -157,10 +157,10 @@ TEST(OscStream, FramesSayWhatTheTicksDo) {
     OscListener listener;
     OscStream stream(listener.target(), played.session.live());
     EXPECT_EQ(stream.note(), "");
-    std::map<SessionState, int> states;
+    std::map<device::SessionState, int> states;
     double poured = 0;
     for (std::int64_t number = 0; number < played.ticks(); number += 97) {
-      const DisplayMoment moment = played.at(number);
+      const device::DisplayMoment moment = played.at(number);
       stream.show(moment);
       const auto messages = listener.frame();
       EXPECT_EQ(listener.frame_, number);
@@ -209,12 +209,12 @@ TEST(OscStream, NumbersThatDoNotExistAreNumbersAllTheSame) {
   OscStream stream(listener.target(), played.session.live());
   played.at(0);
   played.tick.hold_force = std::numeric_limits<double>::infinity();
-  played.tick.torque = Tick::NONE;
+  played.tick.torque = device::Tick::NONE;
   stream.show(played.moment());
   auto messages = by_address(listener.frame());
   EXPECT_EQ(number(messages["/wholehand/force/hold"]), -1) << "no grip holds it";
   EXPECT_EQ(number(messages["/wholehand/force/torque"]), 0);
-  played.tick.hold_force = Tick::NONE;
+  played.tick.hold_force = device::Tick::NONE;
   stream.show(played.moment());
   messages = by_address(listener.frame());
   EXPECT_EQ(number(messages["/wholehand/force/hold"]), 0) << "nothing is held";
@@ -226,12 +226,12 @@ TEST(OscStream, AHandThatHoldsNothingHasNoNumbersOfIt) {
   PlayedSession played(scene);
   OscListener listener;
   OscStream stream(listener.target(), played.session.live());
-  const DisplayMoment moment = played.at(0);
+  const device::DisplayMoment moment = played.at(0);
   constexpr double INFINITE = std::numeric_limits<double>::infinity();
   const char* const addresses[] = {"/wholehand/force/hold", "/wholehand/force/tips_hold", "/wholehand/hand/effort",
                                    "/wholehand/hand/tips_effort"};
   for (const bool is_holding : {false, true}) {
-    if (is_holding) played.hand.hold = HandHold{INFINITE, INFINITE, INFINITE, 25, {}};
+    if (is_holding) played.hand.hold = device::HandHold{INFINITE, INFINITE, INFINITE, 25, {}};
     stream.show(moment);
     auto messages = by_address(listener.frame());
     for (const char* address : addresses) EXPECT_EQ(number(messages[address]), is_holding ? -1 : 0) << address;

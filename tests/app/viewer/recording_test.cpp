@@ -22,18 +22,18 @@ namespace {
 using nlohmann::json;
 
 // A session in which every 7th period is missed, from tick 3 on.
-Recording recorded(const Scene& scene) {
+device::Recording recorded(const Scene& scene) {
   LiveScript script;
   script.vessel = scene.vessels[0].place;
-  Recording recording;
+  device::Recording recording;
   recording.info.rate = script.rate;
   recording.info.device.name = "a gripper";
   recording.info.device.grip = 7;
   for (const VesselData& vessel : scene.vessels) recording.info.vessels.push_back({vessel.name, vessel.liquid_name, 3});
-  Session session(scene, own_gap(scene.hand));
+  device::Session session(scene, own_gap(scene.hand));
   for (std::int64_t n = 3; n < static_cast<std::int64_t>(script.seconds() * script.rate); ++n) {
     if (n % 7 == 0) continue;
-    Tick tick;
+    device::Tick tick;
     session.step(script.at(n), n, tick);
     tick.step_time = 1e-6 * static_cast<double>(n % 11);
     recording.ticks.push_back(tick);
@@ -43,7 +43,7 @@ Recording recorded(const Scene& scene) {
 
 TEST(RecordingView, AFrameIsTheNewestTickByThen) {
   const Scene scene = live_scene();
-  const Recording recording = recorded(scene);
+  const device::Recording recording = recorded(scene);
   const RecordingView view(scene, recording);
   EXPECT_DOUBLE_EQ(view.duration(), static_cast<double>(recording.ticks.back().number + 1) / 1000);
   const auto at = [&](double time) { return view.frames(time, time, 0).at(0); };
@@ -59,20 +59,20 @@ TEST(RecordingView, AFrameIsTheNewestTickByThen) {
 TEST(RecordingView, TellsWhatWasRecorded) {
   Scene scene = live_scene();
   scene.strength.emplace();  // what holding takes is not recorded: it is found again
-  const Recording recording = recorded(scene);
+  const device::Recording recording = recorded(scene);
   const RecordingView view(scene, recording);
-  const LiveScene live(scene);
-  VesselTracker tracker(scene);
+  const device::LiveScene live(scene);
+  device::VesselTracker tracker(scene);
   FrameMaker maker(live);
   for (std::size_t k = 0; k < recording.ticks.size(); ++k) {
-    const Tick& tick = recording.ticks[k];
+    const device::Tick& tick = recording.ticks[k];
     tracker.follow(tick);
     if (k % 97 != 0) continue;
     const double time = static_cast<double>(tick.number) / 1000;
     const ViewFrame seen = view.frames(time, time, 0).at(0);
-    const ViewFrame truth = maker.make(tick, tracker.poses(), hand_view(live, tick, tracker.poses()), seen.timing);
+    const ViewFrame truth = maker.make(tick, tracker.poses(), device::hand_view(live, tick, tracker.poses()), seen.timing);
     EXPECT_EQ(frame_json(seen), frame_json(truth)) << tick.number;
-    EXPECT_EQ(seen.hand.hold.has_value(), is_held(tick.state)) << tick.number;
+    EXPECT_EQ(seen.hand.hold.has_value(), device::is_held(tick.state)) << tick.number;
     EXPECT_EQ(seen.timing.step, tick.step_time);
     EXPECT_EQ(seen.timing.missed, tick.number - 3 - static_cast<std::int64_t>(k));
     if (time > 1.1) {
@@ -121,8 +121,8 @@ TEST(RecordingView, AllOfItIsAtMostTheMostFramesWhateverTheRate) {
     const char* duration;
   };
   for (const Case& c : {Case{333, 598, "1.798799"}, Case{1500, 3000, "2.000667"}}) {
-    Recording recording = recorded(scene);
-    std::erase_if(recording.ticks, [&](const Tick& tick) { return tick.number > c.last; });
+    device::Recording recording = recorded(scene);
+    std::erase_if(recording.ticks, [&](const device::Tick& tick) { return tick.number > c.last; });
     recording.info.rate = c.rate;
     const RecordingView view(scene, recording);
     EXPECT_NEAR(view.duration(), std::stod(c.duration), 5e-7);
@@ -135,10 +135,10 @@ TEST(RecordingView, AllOfItIsAtMostTheMostFramesWhateverTheRate) {
 
 TEST(RecordingView, RefusesARecordingWithoutTicksOrOfAnotherScene) {
   const Scene scene = live_scene();
-  Recording empty = recorded(scene);
+  device::Recording empty = recorded(scene);
   empty.ticks.clear();
   EXPECT_THROW(RecordingView(scene, empty), Error);
-  Recording other = recorded(scene);
+  device::Recording other = recorded(scene);
   other.info.vessels.pop_back();
   EXPECT_THROW(RecordingView(scene, other), Error);
 }

@@ -29,12 +29,12 @@ std::vector<double> read_doubles(const char* path) {
 }
 
 // Reals of every variable, grip by grip.
-void run(Backend& backend, const std::vector<const Variable*>& variables, const Scene& scene, std::size_t vessel,
+void run(Backend& backend, const std::vector<const sweeps::Variable*>& variables, const Scene& scene, std::size_t vessel,
          const std::vector<double>& grips) {
   const std::size_t count = grips.size() / 6;
   const double wall = monotonic_now(), cpu = bench::processor_seconds();
   std::vector<std::vector<double>> values;
-  for (const Variable* variable : variables) values.emplace_back(count * variable_planes(*variable, scene));
+  for (const sweeps::Variable* variable : variables) values.emplace_back(count * variable_planes(*variable, scene));
   RunRequest request;
   request.vessel = vessel;
   request.last = count;
@@ -71,8 +71,8 @@ int main(int, char** argv) {
   scene.output.keep.emplace();
   std::istringstream names(argv[3]);
   for (std::string name; std::getline(names, name, ',');) scene.output.keep->push_back(name);
-  const std::vector<const Variable*> variables = choose_variables(scene);
-  const auto backend = open_backend(scene, make_field_set(variable_fields(variables), scene), "core", Precision::full, 0);
+  const std::vector<const sweeps::Variable*> variables = sweeps::choose_variables(scene);
+  const auto backend = open_backend(scene, make_field_set(sweeps::variable_fields(variables), scene), "core", Precision::full, 0);
   const std::vector<double> grips = read_doubles(argv[4]);
   // each run when a line comes in, so that both sides take turns
   for (int c = std::getchar(); c != EOF; c = std::getchar())

@@ -108,11 +108,11 @@ TEST(SceneCavity, ALevelLedgeIsDrawn) {
     EXPECT_NEAR(points[k][1], 1e-3 * corners[k][1], 1e-12) << k;
   }
   std::string svg;
-  const DrawnView front{"front", {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, nullptr};
-  DrawnGlass(scene.vessels[0]).draw(svg, front);
+  const sweeps::DrawnView front{"front", {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, nullptr};
+  sweeps::DrawnGlass(scene.vessels[0]).draw(svg, front);
   for (const double side : {-1.0, 1.0}) {
-    std::string path = "class=\"inner\" d=\"M" + point_text({0, -6});
-    for (const auto& [r, y] : corners) path += "L" + point_text({side * r, -y});
+    std::string path = "class=\"inner\" d=\"M" + sweeps::point_text({0, -6});
+    for (const auto& [r, y] : corners) path += "L" + sweeps::point_text({side * r, -y});
     EXPECT_NE(svg.find(path + "\""), std::string::npos) << svg;
   }
 }
@@ -162,19 +162,19 @@ TEST(SceneCavity, SaysWhereLiquidWouldStandInAStem) {
   EXPECT_NEAR(narrow->radius, 3e-3, 1e-12);
   EXPECT_LT(narrow->beneath, 0.05 * capacity_of(scene.vessels[0]));
   EXPECT_GT(narrow->beneath, 0);
-  const auto notes = cavity_notes(scene);
+  const auto notes = sweeps::cavity_notes(scene);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("vessel 'wine': its cavity narrows to a radius of 3 mm at "), std::string::npos) << notes[0];
   EXPECT_NE(notes[0].find("'floor_mm' or 'inner_outline'"), std::string::npos);
   EXPECT_EQ(notes[0].find('\n'), std::string::npos);
-  const auto inner = cavity_notes(scene_from(
+  const auto inner = sweeps::cavity_notes(scene_from(
       cylinder_with("inner_outline = [{ line = [0, 10] }, { line = [30, 10] }, { line = [4, 50] }, { line = [30, 110] }]")));
   ASSERT_EQ(inner.size(), 1u);
   EXPECT_NE(inner[0].find("belongs there, let 'inner_outline' begin above this height"), std::string::npos) << inner[0];
   for (const std::string& keys : {std::string("wall_mm = 2\nfloor_mm = 85"), BOWL})
-    EXPECT_TRUE(cavity_notes(scene_from(wine_glass(keys))).empty()) << keys;
+    EXPECT_TRUE(sweeps::cavity_notes(scene_from(wine_glass(keys))).empty()) << keys;
   for (const char* shipped : {"three_beakers", "mixing_board", "paper_pose", "small"})
-    EXPECT_TRUE(cavity_notes(read_scene_file(find_scene(shipped))).empty()) << shipped;
+    EXPECT_TRUE(sweeps::cavity_notes(read_scene_file(find_scene(shipped))).empty()) << shipped;
 }
 
 TEST(SceneCavity, ANarrowPlaceIsWiderOnBothSides) {

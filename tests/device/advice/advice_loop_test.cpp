@@ -13,7 +13,7 @@
 
 #include "tests/support/advised_session.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // One tick of a played session, as a session gives it.
@@ -167,4 +167,4 @@ TEST(AdviceLoop, SaysWhereItsDeviceHangsAndGoesOnAfterwards) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

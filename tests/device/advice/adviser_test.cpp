@@ -14,7 +14,7 @@
 #include "device/advice/cloud.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 Scene advised_scene(const VesselData& vessel = beaker1()) {
@@ -317,4 +317,4 @@ TEST(AdviceScene, HasTiltsWhereTheSceneHasNone) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

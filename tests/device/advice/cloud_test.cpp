@@ -10,7 +10,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 GripInput somewhere() {
@@ -90,4 +90,4 @@ TEST(Cloud, TurnsAboutVesselsOnWhichThatMatters) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

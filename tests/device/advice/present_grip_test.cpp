@@ -15,7 +15,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Mat3;
@@ -114,4 +114,4 @@ TEST(Approach, OfALeftHandIsTheMirroredGrip) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

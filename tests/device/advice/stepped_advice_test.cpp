@@ -7,7 +7,7 @@
 
 #include "tests/support/advised_session.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // The grips that are shown in a session, with the ticks at which they come.
@@ -129,4 +129,4 @@ TEST(SteppedAdvice, IsEndedByADeviceThatFails) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

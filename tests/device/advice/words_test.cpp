@@ -15,7 +15,7 @@
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double NEVER = std::numeric_limits<double>::infinity();
@@ -67,7 +67,7 @@ Triple way_of_wrist(const Scene& scene, const GripInput& from, const GripInput& 
     GripResult result;
     core->grip(0, grip, result);
     EXPECT_EQ(result.reason, Reason::none);
-    return hand_nodes(scene.hand, grip, result).wrist.position;
+    return sweeps::hand_nodes(scene.hand, grip, result).wrist.position;
   };
   const Triple a = wrist(from), b = wrist(to);
   return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
@@ -170,4 +170,4 @@ TEST(AdviceWords, OfAHandThatHolds) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

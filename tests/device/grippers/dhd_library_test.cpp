@@ -11,7 +11,7 @@
 #include "tests/support/files.h"
 #include "tests/support/omega_fixture.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(DhdLibrary, SaysWhereToGetIt) {
@@ -69,4 +69,4 @@ TEST(DhdLibrary, NamesTheMissingFunction) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -7,7 +7,7 @@
 
 #include "tests/support/stand_in_dhd.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(FindGrippers, SimAndThePageAreAlwaysThereAndOmegaWithItsSdk) {
@@ -27,4 +27,4 @@ TEST(FindGrippers, SimAndThePageAreAlwaysThereAndOmegaWithItsSdk) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Vec3;
@@ -100,4 +100,4 @@ TEST(Follower, NoTimeIsNoMove) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -14,7 +14,7 @@
 #include "tests/support/gripper_checks.h"
 #include "tests/support/mock_grippers.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(HidGripper, IsFoundWithItsLimits) {
@@ -180,4 +180,4 @@ TEST(HidGripper, WhatIsNoGripperIsNotAsked) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -11,7 +11,7 @@
 #include "tests/support/files.h"
 #include "tests/support/omega_fixture.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST_F(OmegaGripperTest, WatchdogIsKeptToItsRange) {
@@ -145,4 +145,4 @@ TEST_F(OmegaGripperTest, FindingSaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

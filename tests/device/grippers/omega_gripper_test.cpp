@@ -10,7 +10,7 @@
 
 #include "tests/support/omega_fixture.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(DhdFrames, AxesChangeNamesOnly) {
@@ -282,4 +282,4 @@ TEST_F(OmegaGripperTest, LeavesNoForceBehind) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -26,7 +26,7 @@
 #include "tests/support/live_script.h"
 #include "tests/support/osc_peer.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 GripperState hand_at(double x, double gap = 0.1) {
@@ -711,4 +711,4 @@ TEST(OscGripper, AnAddressThatOthersReachIsSaidAndRemarked) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

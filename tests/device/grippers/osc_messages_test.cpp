@@ -13,7 +13,7 @@
 #include "tests/support/live_script.h"
 #include "tests/support/osc_words.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double OSC_NAN = std::numeric_limits<double>::quiet_NaN();
@@ -234,4 +234,4 @@ TEST(OscMessages, SequencesWrap) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -16,7 +16,7 @@
 #include "device/loop/guard.h"
 #include "tests/support/live_script.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double PACKET_RATE = 1000;  // Hz, of the loop
@@ -308,4 +308,4 @@ TEST(PacketMotion, MissedTicksChangeNothing) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -14,7 +14,7 @@
 #include "tests/support/files.h"
 #include "tests/support/hex_blocks.h"
 
-namespace wholehand::protocol {
+namespace wholehand::device::protocol {
 namespace {
 
 constexpr double WIRE_ROUNDING = 1e-9;  // m and of a rotation's parts: a nanometer, and 2^-30 rounded
@@ -358,4 +358,4 @@ TEST(Protocol, LimitsAreWhatTheIdentitySays) {
 }
 
 }  // namespace
-}  // namespace wholehand::protocol
+}  // namespace wholehand::device::protocol

@@ -12,7 +12,7 @@
 #include "tests/support/gripper_checks.h"
 #include "tests/support/mock_grippers.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(UsbGripper, IsFoundWithItsLimits) {
@@ -208,4 +208,4 @@ TEST(UsbGripper, SecondSessionIsRefused) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -21,7 +21,7 @@
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 const std::atomic<bool> NO_STOP{false};
@@ -324,4 +324,4 @@ TEST(ViewGripper, ManyThreadsMayPostWhileTheLoopRuns) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -10,7 +10,7 @@
 #include "core/reader/shipped.h"
 #include "device/loop/grip_loop.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr std::array<double, 2> OWN_GAP{12.5e-3, 128e-3};  // a device whose gap is the hand's
@@ -94,4 +94,4 @@ TEST(Gains, AMappedDeviceFeelsTheStiffnessTimesTheSlope) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(GripLoop, AnOrdinaryUserHolds) {
@@ -88,4 +88,4 @@ TEST(GripLoop, TableHasARowASessionAndTheSameEveryTime) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -15,7 +15,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/special_values.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // Rounding of a few products and sums of forces of some newtons.
@@ -288,4 +288,4 @@ TEST(Guard, AForceThatIsNoNumberIsNone) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -16,7 +16,7 @@
 #include "tests/support/loop_rig.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Vec3;
@@ -150,4 +150,4 @@ TEST(Energy, GrowsAgainstAWallThatIsNotPassive) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

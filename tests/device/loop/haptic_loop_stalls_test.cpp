@@ -15,7 +15,7 @@
 #include "device/simulated/replay_gripper.h"
 #include "tests/support/loop_rig.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // ---- stalls ----
@@ -252,4 +252,4 @@ TEST(HapticLoop, TheWatchActsOnNoCallThatHasReturned) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

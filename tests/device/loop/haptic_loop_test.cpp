@@ -19,7 +19,7 @@
 #include "tests/support/loop_rig.h"
 #include "tests/support/special_values.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // ---- without a fault ----
@@ -317,4 +317,4 @@ TEST(HapticLoop, TellsWhatBecameOfTheForce) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

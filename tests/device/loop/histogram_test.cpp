@@ -12,7 +12,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double HALF_A_BIN = 0.5 / 1024;  // of a time
@@ -70,4 +70,4 @@ TEST(Histogram, WhatLiesBeyondItsEndsIsCountedThere) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -14,7 +14,7 @@
 
 #include "tests/support/panicking.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // ---- messages about the force ----
@@ -98,4 +98,4 @@ TEST(PanicGuard, IsGoneWithItsEnd) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

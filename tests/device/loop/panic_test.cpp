@@ -24,7 +24,7 @@
 #include "base/system/block_signals.h"
 #include "tests/support/panicking.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 void overflow_stack(volatile char* before);
@@ -280,4 +280,4 @@ TEST(PanicGuard, AnExitAfterItIsAnExit) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

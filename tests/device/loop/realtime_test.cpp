@@ -18,7 +18,7 @@
 #include <string>
 #include <thread>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 bool mentions(const std::vector<std::string>& notes, const std::string& words) {
@@ -89,4 +89,4 @@ TEST(Realtime, IsOfTheCallingThreadAlone) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -99,7 +99,7 @@ int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
 }
 }
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 const std::atomic<bool> GOES_ON{false};
@@ -351,6 +351,6 @@ TEST(TickPath, TakingAShownGripAllocatesAndLocksNothing) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device
 
 #endif

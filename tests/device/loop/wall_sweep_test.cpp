@@ -10,7 +10,7 @@
 
 #include "tests/support/result_reader.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 const WallSheet& sheet_named(const std::vector<WallSheet>& sheets, const std::string& name) {
@@ -102,4 +102,4 @@ TEST(WallSheets, AFullRunHasMoreThanAHundredThousandPoints) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -15,7 +15,7 @@
 #include "device/recordings/session_report.h"
 #include "tests/support/recorded_session.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double COLLECTED_MAX = 5;  // F_max, N
@@ -135,4 +135,4 @@ TEST(GraspCollector, ForceAtFirstWhileMaintained) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

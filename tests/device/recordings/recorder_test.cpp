@@ -12,7 +12,7 @@
 #include "tests/support/files.h"
 #include "tests/support/recorded_ticks.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(Recorder, WritesDownWhatGoesThroughTheRing) {
@@ -93,4 +93,4 @@ TEST(Recorder, FinishesWhenItGoes) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -14,7 +14,7 @@
 #include "tests/support/recorded_ticks.h"
 #include "tests/support/refusal.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // All that a recording says.
@@ -113,4 +113,4 @@ TEST_F(FlippedRecording, WhereValuesLieDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

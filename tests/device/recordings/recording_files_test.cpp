@@ -16,7 +16,7 @@
 #include "tests/support/files.h"
 #include "tests/support/recorded_ticks.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // Killed with SIGKILL, at whatever it was doing then: the file holds whole blocks, in order.
@@ -209,4 +209,4 @@ TEST(Recording, ALinkIsFollowed) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -17,7 +17,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/special_values.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // What reading it is refused with: exit code 2 and one line that starts with the file.
@@ -234,4 +234,4 @@ TEST(Recording, TakesNoHarmFromADamagedHeader) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -18,7 +18,7 @@
 #include "tests/support/files.h"
 #include "tests/support/recorded_ticks.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // A member that the table lacks would be lost: nothing as large as a number lies between those that it has.
@@ -237,4 +237,4 @@ TEST(Recording, SeedsOfTheFuzzerAreRead) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -13,7 +13,7 @@
 #include "tests/support/files.h"
 #include "tests/support/xml.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // 40 s: free, lift, tilt with one tick of a much larger force, free.
@@ -114,4 +114,4 @@ TEST(SessionPlot, OfOneTickAndOfNoNumbersIsDrawn) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -13,7 +13,7 @@
 #include "tests/support/recorded_session.h"
 #include "tests/support/special_values.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(SessionReport, TimesOfStatesAndGrasps) {
@@ -364,4 +364,4 @@ TEST(TurningBack, IsZeroForOneWay) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

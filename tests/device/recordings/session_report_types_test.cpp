@@ -10,7 +10,7 @@
 
 #include "tests/support/recorded_session.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(SessionReport, TypeG1WhereGripRisesAsTheNormalForceDoes) {
@@ -113,4 +113,4 @@ TEST(SessionReport, TiltsUnder30DegreesAreNotAnalyzed) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

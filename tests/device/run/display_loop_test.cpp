@@ -13,7 +13,7 @@
 
 #include "tests/support/live_script.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 // Keeps what it is shown.
@@ -161,4 +161,4 @@ TEST(DisplayLoop, PosesNoHandForNobody) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

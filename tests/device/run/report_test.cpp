@@ -9,7 +9,7 @@
 #include "core/reader/shipped.h"
 #include "tests/support/live_script.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 Scene board_scene() { return read_scene_file(find_scene("mixing_board")); }
@@ -122,4 +122,4 @@ TEST(TallyWords, SayTheRate) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

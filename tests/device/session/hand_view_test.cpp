@@ -23,7 +23,7 @@
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Mat3;
@@ -521,4 +521,4 @@ TEST(TableHeight, IsUnderTheLowestVessel) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

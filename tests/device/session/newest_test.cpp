@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <thread>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 TEST(Newest, GivesTheNewestOnceAndNothingBefore) {
@@ -72,4 +72,4 @@ TEST(Newest, IsWholeBetweenTwoThreads) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -11,7 +11,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Vec3;
@@ -154,4 +154,4 @@ TEST(Pouring, HoldsAllThatCanBeInTheAir) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

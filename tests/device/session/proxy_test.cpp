@@ -13,7 +13,7 @@
 #include "tests/support/tabletop.h"
 #include "tests/support/vectors.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Vec3;
@@ -243,4 +243,4 @@ TEST(Proxy, FrictionLetsGoWhenTheTipLeaves) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

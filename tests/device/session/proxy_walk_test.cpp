@@ -14,7 +14,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/tabletop.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Vec3;
@@ -216,4 +216,4 @@ TEST(Proxy, FeelsSmoothOverEdgesAndThroughCreases) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

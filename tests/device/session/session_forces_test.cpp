@@ -18,7 +18,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Vec3;
@@ -272,4 +272,4 @@ TEST(Session, TheWeightComesOnWithTheLift) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -16,7 +16,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 Triple mirrored_x(const Triple& t) { return {-t[0], t[1], t[2]}; }
@@ -159,4 +159,4 @@ TEST(Session, ALeftHandIsMirrored) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -15,7 +15,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Vec3;
@@ -167,4 +167,4 @@ TEST(Session, NoiseOpensNoFingers) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

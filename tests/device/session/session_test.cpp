@@ -17,7 +17,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Mat3;
@@ -244,4 +244,4 @@ TEST(LiveScene, RefusesWhatCannotBeLive) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 Tick numbered(std::int64_t number) {
@@ -90,4 +90,4 @@ TEST(TickRing, LosesNothingBetweenTwoThreads) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

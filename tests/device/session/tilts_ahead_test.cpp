@@ -11,7 +11,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 Scene strong_scene() {
@@ -97,4 +97,4 @@ TEST(TiltsAhead, AreOfHeldVesselsAndScenesWithStrength) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

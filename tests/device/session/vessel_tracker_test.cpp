@@ -11,7 +11,7 @@
 #include "device/session/session.h"
 #include "tests/support/live_script.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 void expect_same(const VesselPoses& a, const VesselPoses& b, std::size_t tick) {
@@ -85,4 +85,4 @@ TEST(VesselHistory, OfAWholeSessionIsTheSessions) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -12,7 +12,7 @@
 #include "base/text/error.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 using core_f64::Mat3;
@@ -206,4 +206,4 @@ TEST(CouplingSlope, IsTheLargerOfArmAndGap) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 Tick recorded(std::int64_t number, double gap, ReadOutcome read = ReadOutcome::value, Fault fault = Fault::none) {
@@ -116,4 +116,4 @@ TEST(ReplayGripper, OfNothingIsDoneAtOnce) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -9,7 +9,7 @@
 
 #include "core/people/participant.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 constexpr double PERIOD = 1e-3, BASE = 0.8, OPENING = 600;  // s, N, N/m
@@ -133,4 +133,4 @@ TEST(SimFingers, TrembleByAShareOfTheForce) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

@@ -24,7 +24,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::device {
 namespace {
 
 struct SimSession {
@@ -388,4 +388,4 @@ TEST(SimUser, PlansWhatTheTaskAsksFor) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::device

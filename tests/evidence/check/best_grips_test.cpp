@@ -26,12 +26,12 @@ TEST(BestGrips, OfTheDefaultSceneAreThoseOfABody) {
   ASSERT_TRUE(scene.table);
   ASSERT_GT(scene.hand.between, 0);
   TemporaryFolder folder;
-  const SweepOptions options{.output = folder / "best.nc"};
+  const sweeps::SweepOptions options{.output = folder / "best.nc"};
   testing::internal::CaptureStdout();
-  ASSERT_EQ(run_sweep(scene, options), ExitCode::done);
+  ASSERT_EQ(sweeps::run_sweep(scene, options), ExitCode::done);
   testing::internal::GetCapturedStdout();
-  const Plan plan(scene, true);
-  SweepResult result(options.output);
+  const sweeps::Plan plan(scene, true);
+  sweeps::SweepResult result(options.output);
   result.use(scene, plan);
   const auto core = make_core_evaluator(scene);
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {

@@ -14,7 +14,7 @@
 namespace wholehand {
 namespace {
 
-CheckSample sample_of(const Scene& scene) { return check_sample(scene, Plan(scene, true), 0); }
+CheckSample sample_of(const Scene& scene) { return check_sample(scene, sweeps::Plan(scene, true), 0); }
 
 std::pair<double, double> ends(const CheckSample& sample, const std::function<double(const GripInput&)>& axis) {
   std::set<double> values;
@@ -27,7 +27,7 @@ TEST(CheckSample, FewGripsAreFilledUpBetweenTheirValues) {
   const CheckSample sample = sample_of(scene);
   EXPECT_EQ(sample.own, 12u);
   EXPECT_EQ(sample.grips.size(), FEWEST_CHECKED_GRIPS);
-  const Plan plan(scene, true);
+  const sweeps::Plan plan(scene, true);
   for (std::size_t i = 0; i < sample.own; ++i) {
     EXPECT_EQ(sample.grips[i].height, plan.grip(0, i).height);
     EXPECT_EQ(sample.grips[i].roll, plan.grip(0, i).roll);

@@ -135,7 +135,7 @@ TEST(Check, AdvisesWhatTheComparisonsHaveShown) {
 TEST(Check, BlamesTheDeviceOnlyForWhatIsItsOwn) {
   const Scene scene = small_scene();
   const auto core = make_core_evaluator(scene);
-  const std::vector<GripInput> grips = check_sample(scene, Plan(scene, true), 0).grips;
+  const std::vector<GripInput> grips = check_sample(scene, sweeps::Plan(scene, true), 0).grips;
   const GatheredPlanes right = gather(*core, compared_fields(scene), 0, grips);
   const auto score_off = [&](double by) {
     GatheredPlanes planes = right;

@@ -33,7 +33,7 @@ class Compare : public testing::Test {
     scene_.strength.reset();
     scene_.force.max = scene_.force.base + 0.08 * scene_.force.range;  // reached at some of the tilts
     core_ = make_core_evaluator(scene_);
-    const Plan plan(scene_, true);
+    const sweeps::Plan plan(scene_, true);
     for (std::uint64_t i = 0; i < plan.grips(); ++i) grips_.push_back(plan.grip(0, i));
     planes_ = gather(*core_, all_fields(scene_), 0, grips_);
   }
@@ -380,7 +380,7 @@ TEST(CompareTorque, UpsideDownIsComparedByTheWeightAtItsLever) {
   scene.tilts = {PI};
   scene.liquid.reset();  // which has a tolerance of its own
   const auto core = make_core_evaluator(scene), single = make_core_float_evaluator(scene);
-  const Plan plan(scene, true);
+  const sweeps::Plan plan(scene, true);
   std::vector<GripInput> grips;
   for (std::uint64_t i = 0; i < plan.grips(); ++i) grips.push_back(plan.grip(0, i));
   const FieldSet fields = all_fields(scene);

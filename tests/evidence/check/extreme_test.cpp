@@ -397,20 +397,20 @@ void first_drop(const AnsweredScene& a) {
 }
 
 void widest_deviations(const AnsweredScene& a) {
-  const Plan plan(a.scene, true);
-  std::vector<std::vector<BestGrip>> lists(1);
+  const sweeps::Plan plan(a.scene, true);
+  std::vector<std::vector<sweeps::BestGrip>> lists(1);
   for (std::size_t i = 0; i < a.grips[0].size(); ++i) {
-    BestGrip best;
+    sweeps::BestGrip best;
     best.candidate.index = i;
     best.grip = a.grips[0][i];
     if (a.feasible(0, i)) lists[0].push_back(best);
   }
-  const OpenBackend open = [](const Scene& scene, const FieldSet& fields) {
+  const sweeps::OpenBackend open = [](const Scene& scene, const FieldSet& fields) {
     return open_backend(scene, fields, "core", Precision::full, 1);
   };
-  ASSERT_TRUE(rank_robustly(open, a.scene, plan, MOST_ROBUST, nullptr, lists));
+  ASSERT_TRUE(sweeps::rank_robustly(open, a.scene, plan, sweeps::MOST_ROBUST, nullptr, lists));
   std::size_t above = 0;
-  for (const BestGrip& best : lists[0]) {
+  for (const sweeps::BestGrip& best : lists[0]) {
     for (const double score : {best.robust.low, best.robust.mean}) EXPECT_TRUE(score >= 0 && score <= 1) << best.candidate.index;
     above += best.robust.mean > 0 ? 1 : 0;
   }

@@ -61,7 +61,7 @@ TEST(NaturalScenes, EffortsInFloatAreFiniteWhereTheyAreInDouble) {
                            {42, 1, 141, FIELD_TIPS_WORST_EFFORT},
                            {42, 1, 455, FIELD_WORST_EFFORT}}) {
     const Scene scene = natural_scene(hard.seed);
-    const CheckSample sample = check_sample(scene, Plan(scene, true), hard.vessel);
+    const CheckSample sample = check_sample(scene, sweeps::Plan(scene, true), hard.vessel);
     const FieldSet fields = make_field_set({hard.field}, scene);
     const auto effort = [&](const Evaluator& core) {
       return gather(core, fields, hard.vessel, {sample.grips[hard.grip]}).real(fields.plane[hard.field], 0);
@@ -76,7 +76,7 @@ TEST(NaturalScenes, EffortsInFloatAreFiniteWhereTheyAreInDouble) {
 // one whose effort is 6 % smaller.
 TEST(NaturalScenes, TheStateThatADeviceNamesIsTheWorst) {
   const Scene scene = natural_scene(33);
-  const CheckSample sample = check_sample(scene, Plan(scene, true), 0);
+  const CheckSample sample = check_sample(scene, sweeps::Plan(scene, true), 0);
   const FieldSet fields = make_field_set({FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_TILT, FIELD_EFFORT}, scene);
   const auto device = gather(*backend_of(scene, fields, Precision::single), 0, sample.grips),
              core = gather(*make_core_evaluator(scene), fields, 0, sample.grips);

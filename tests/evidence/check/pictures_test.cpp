@@ -21,11 +21,11 @@ namespace {
 const char* const LIMIT = "#1f4e79";
 
 // What theory says settles, and nothing else.
-std::vector<WallSheet> sheets_by_theory() {
-  std::vector<WallSheet> sheets = wall_sheets(true, 1);
-  for (WallSheet& sheet : sheets)
-    for (WallColumn& column : sheet.columns)
-      for (WallPoint& point : column.points) point.energy = point.stiffness <= column.theory.linear ? 0 : 2;
+std::vector<device::WallSheet> sheets_by_theory() {
+  std::vector<device::WallSheet> sheets = device::wall_sheets(true, 1);
+  for (device::WallSheet& sheet : sheets)
+    for (device::WallColumn& column : sheet.columns)
+      for (device::WallPoint& point : column.points) point.energy = point.stiffness <= column.theory.linear ? 0 : 2;
   return sheets;
 }
 
@@ -60,10 +60,10 @@ TEST(WallPicture, HasFourMapsWithTheirLimits) {
 }
 
 TEST(WallPicture, WhereNothingSettlesThereIsNoSuchArea) {
-  std::vector<WallSheet> sheets = wall_sheets(true, 1);
-  for (WallSheet& sheet : sheets)
-    for (WallColumn& column : sheet.columns) {
-      for (WallPoint& point : column.points) point.energy = std::nan("");
+  std::vector<device::WallSheet> sheets = device::wall_sheets(true, 1);
+  for (device::WallSheet& sheet : sheets)
+    for (device::WallColumn& column : sheet.columns) {
+      for (device::WallPoint& point : column.points) point.energy = std::nan("");
       column.theory.linear = HUGE_VAL;
       column.theory.passive = 0;
     }
@@ -74,7 +74,7 @@ TEST(WallPicture, WhereNothingSettlesThereIsNoSuchArea) {
 }
 
 TEST(IntegratorPicture, HasALimitForEverySubStep) {
-  const std::string svg = integrator_picture(wall_sheets(true, 1));
+  const std::string svg = integrator_picture(device::wall_sheets(true, 1));
   expect_well_formed(svg);
   for (const char* text : {"explicit Euler", "semi-implicit Euler", "exact", "sub-steps of a sample", ">16<"})
     EXPECT_TRUE(has(svg, text)) << text;
@@ -94,9 +94,9 @@ TEST(GripLoopPicture, ShowsWhoHolds) {
     EXPECT_TRUE(has(svg, text)) << text;
   const DrawnAxes axes = drawn_axes(svg).at(0);
   const auto y_of = [&](double k_open) { return axes.top + axes.height * (1 - std::log(k_open / 40) / std::log(30000.0 / 40)); };
-  EXPECT_NEAR(drawn_lines(svg, "#404040").at(1).at(0)[1], y_of(sampled_k_open(GripLoop{})), 0.1);
+  EXPECT_NEAR(drawn_lines(svg, "#404040").at(1).at(0)[1], y_of(device::sampled_k_open(device::GripLoop{})), 0.1);
   // an ordinary user settles
-  const GripLoop usual;
+  const device::GripLoop usual;
   const double x = axes.left + axes.width * usual.reaction / 0.605, y = y_of(usual.k_open);
   const auto settles = drawn_boxes(svg, tint(okabe_ito::SKY_BLUE, 0.5));
   EXPECT_TRUE(std::any_of(settles.begin(), settles.end(),

@@ -32,7 +32,7 @@ std::size_t asked_scenes(const char* variable, std::size_t portion) {
 
 // The scene's own grips, some of them where there are many, and of those between them where there are few.
 std::vector<GripInput> some_grips(const Scene& scene, std::size_t vessel) {
-  const CheckSample sample = check_sample(scene, Plan(scene, true), vessel);
+  const CheckSample sample = check_sample(scene, sweeps::Plan(scene, true), vessel);
   const std::size_t step = std::max<std::size_t>(1, sample.own / GRIPS);
   std::vector<GripInput> grips;
   for (std::size_t i = 0; i < GRIPS; ++i) grips.push_back(sample.grips[i * step]);

@@ -153,16 +153,16 @@ TEST(UndecidedContacts, HaveOneEffortInOneReport) {
   for (const std::string on : {"core", "vulkan"})
     for (const Precision precision : {Precision::full, Precision::single}) {
       if (on == "vulkan" && precision == Precision::full) continue;  // pipelines of all fields take long to compile
-      const GripMethods methods = open_grip_methods(scene, on, precision);
-      GripReport report = make_grip_report(scene, 0, touching_grip(), {{1}, {radians(60)}}, methods);
-      add_holding(report, scene, 0);
+      const sweeps::GripMethods methods = sweeps::open_grip_methods(scene, on, precision);
+      sweeps::GripReport report = sweeps::make_grip_report(scene, 0, touching_grip(), {{1}, {radians(60)}}, methods);
+      sweeps::add_holding(report, scene, 0);
       ASSERT_TRUE(report.hold) << report.device;
       EXPECT_NEAR(1 / (1 + report.hold->worst), report.answer.score.terms.hold, 1e-6) << report.device;
-      const std::string table = grip_table(report);
+      const std::string table = sweeps::grip_table(report);
       EXPECT_NE(table.find("\n  undecided "), std::string::npos) << table;
       const bool is_core_double = on == "core" && precision == Precision::full;
       EXPECT_EQ(table.find("\n  from the core ") == std::string::npos, is_core_double) << table;
-      EXPECT_NE(grip_json(report).find("\"undecided\":true"), std::string::npos);
+      EXPECT_NE(sweeps::grip_json(report).find("\"undecided\":true"), std::string::npos);
     }
 }
 

@@ -145,7 +145,7 @@ TEST(Agreement, OfManyGripsTakesASampleAndAllThatAreListed) {
   gaps[others.back()] *= 1.001;
   swept.change("gap", gaps);
   EXPECT_EQ(compare_with_core(*swept.source, 0).outside, 1u);
-  swept.source->lists = GripLists(2);
+  swept.source->lists = sweeps::GripLists(2);
   EXPECT_TRUE(compare_with_core(*swept.source, 0).holds()) << "a page that lists none";
 }
 

@@ -36,7 +36,7 @@ class ReportBrowser : public testing::Test {
     browser = output_of("command -v chromium-headless-shell || command -v chromium", code);
     ASSERT_EQ(code, 0) << "no Chromium here: chromium-headless-shell of packages.txt";
     browser.erase(browser.find_last_not_of('\n') + 1);
-    SweepResult result(swept.path);
+    sweeps::SweepResult result(swept.path);
     page = report_page(result, swept.scene);
   }
 

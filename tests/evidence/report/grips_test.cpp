@@ -39,7 +39,7 @@ TEST(ReportGrips, AreTheFilesWithTheCoresNumbers) {
   ASSERT_EQ(best.grips.size(), 5u);
   const auto listed = swept.result->best(1);
   for (std::size_t rank = 0; rank < 5; ++rank) {
-    const BestGrip& grip = best.grips[rank];
+    const sweeps::BestGrip& grip = best.grips[rank];
     EXPECT_EQ(grip.rank, rank + 1);
     EXPECT_EQ(grip.score, listed[rank].score);
     EXPECT_EQ(grip.candidate.index, listed[rank].index);
@@ -70,21 +70,21 @@ TEST(ReportGrips, RefinedGripsAreToldBesideTheSweptOnes) {
   const auto listed = swept.result->best(0);
   // each rank has its own place in its box; the second has none
   std::vector<double> scores;
-  std::array<std::vector<double>, REFINED_COORDINATES> places;
+  std::array<std::vector<double>, sweeps::REFINED_COORDINATES> places;
   std::vector<GripInput> grips;
   for (std::size_t rank = 0; rank < listed.size(); ++rank) {
-    const RefineBox box = refine_box(*swept.plan, 0, listed[rank].index);
-    std::array<double, REFINED_COORDINATES> place{};
+    const sweeps::RefineBox box = sweeps::refine_box(*swept.plan, 0, listed[rank].index);
+    std::array<double, sweeps::REFINED_COORDINATES> place{};
     scores.push_back(rank == 1 ? std::nan("") : 0.9871 - 0.01 * static_cast<double>(rank));
     for (std::size_t k = 0; k < place.size(); ++k) {
       place[k] = box.low[k] + (box.high[k] - box.low[k]) * (0.3 + 0.05 * static_cast<double>(rank));
       places[k].push_back(rank == 1 ? std::nan("") : place[k]);
     }
-    grips.push_back(with_coordinates(swept.plan->grip(0, listed[rank].index), place));
+    grips.push_back(sweeps::with_coordinates(swept.plan->grip(0, listed[rank].index), place));
   }
   swept.change("best_refined_score", scores);
   for (std::size_t k = 0; k < places.size(); ++k)
-    swept.change(refined_axis_name(swept.plan->axes()[static_cast<std::size_t>(REFINED_PLACES[k])]), places[k]);
+    swept.change(sweeps::refined_axis_name(swept.plan->axes()[static_cast<std::size_t>(sweeps::REFINED_PLACES[k])]), places[k]);
   const ReportedGrips best = read_grips(*swept.source, 0);
   EXPECT_EQ(best.grips[0].refined_score, 0.9871);
   EXPECT_EQ(best.grips[2].refined.height, grips[2].height);
@@ -183,8 +183,9 @@ std::string drawing() {
   const SweptScene swept(RESULT_SCENE);
   const auto& source = *swept.source;
   const GripInput grip = source.plan.grip(0, swept.result->best(0)[0].index);
-  return grip_svg(source.scene, 0,
-                  make_grip_report(source.scene, 0, grip, {}, core_grip_methods(source.scene, source.core, "core")));
+  return sweeps::grip_svg(
+      source.scene, 0,
+      sweeps::make_grip_report(source.scene, 0, grip, {}, sweeps::core_grip_methods(source.scene, source.core, "core")));
 }
 
 std::array<double, 4> box_of(const std::string& svg) {

@@ -27,7 +27,7 @@ std::string efforts_html(const SweptScene& swept, std::size_t vessel) {
 }
 
 TEST(DigitLoads, AreSumsOfNormalForces) {
-  StateHold hold;
+  sweeps::StateHold hold;
   hold.strength.digits = {40, 25, 35, 25, 14, 80};
   hold.effort = 0.5;
   // two contacts of the thumb, one of the palm; what is across a normal does not count
@@ -47,10 +47,10 @@ TEST(DigitLoads, AreSumsOfNormalForces) {
 TEST(DigitLoads, TheLargestShareIsTheEffort) {
   const SweptScene swept(strong_scene());
   for (std::size_t vessel = 0; vessel < 2; ++vessel) {
-    const GripReport report = grip_with_holding(*swept.source, vessel, swept.best_grip(vessel));
+    const sweeps::GripReport report = grip_with_holding(*swept.source, vessel, swept.best_grip(vessel));
     ASSERT_EQ(report.holds.size(), 8u) << "2 fills, 4 tilts";
     int held = 0;
-    for (const StateHold& hold : report.holds) {
+    for (const sweeps::StateHold& hold : report.holds) {
       if (!std::isfinite(hold.effort)) continue;
       ++held;
       double largest = 0;
@@ -71,13 +71,13 @@ TEST(WriteDigits, HasARowForEachDigitAndTwoColumnsForEachGrip) {
   EXPECT_TRUE(html.is_closed());
   for (const char* header : {">thumb</th>", ">palm</th>", ">grip 1 (N)</th>", ">grip 2 (%)</th>", ">strength (N)</th>"})
     EXPECT_TRUE(has(html.written(), header)) << header;
-  const auto hardest = hardest_state(grips[0].report);
+  const auto hardest = sweeps::hardest_state(grips[0].report);
   const auto loads = digit_loads(grips[0].report.holds[hardest.value()]);
   const std::string cells =
       "<td>" + shown_number(loads[0].force, 1) + "</td>\n<td>" + shown_number(100 * loads[0].share, 0) + "</td>";
   EXPECT_TRUE(has(html.written(), "<td>40</td>\n" + cells)) << html.written();
   MarkupWriter none;
-  write_digits(none, swept.scene, {{1, GripReport{}}}, "cup");
+  write_digits(none, swept.scene, {{1, sweeps::GripReport{}}}, "cup");
   EXPECT_EQ(none.written(), "");
 }
 
@@ -86,11 +86,11 @@ TEST(EffortsOverTilt, AreThoseOfTheFullestFill) {
   for (std::size_t vessel = 0; vessel < 2; ++vessel) {
     const GripInput grip = swept.best_grip(vessel);
     const TiltEfforts efforts = efforts_over_tilt(*swept.source, vessel, grip);
-    const GripReport report = grip_with_holding(*swept.source, vessel, grip);
+    const sweeps::GripReport report = grip_with_holding(*swept.source, vessel, grip);
     ASSERT_EQ(efforts.whole.size(), 4u);
     ASSERT_EQ(efforts.tips.size(), 4u);
     for (std::size_t t = 0; t < 4; ++t) {
-      const GripState& state = report.answer.states[4 + t];
+      const sweeps::GripState& state = report.answer.states[4 + t];
       EXPECT_EQ(state.fill, 0.6);
       EXPECT_EQ(state.tilt, swept.scene.tilts[t]);
       EXPECT_EQ(efforts.whole[t], report.holds[4 + t].effort);

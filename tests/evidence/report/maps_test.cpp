@@ -136,7 +136,7 @@ TEST(ReportMaps, CountsAreThoseOfTheFile) {
              antipodal = read_values(swept.path, "antipodal"), blocked = read_values(swept.path, "blocked_mask");
   std::uint64_t unsplit = 0;
   for (std::size_t v = 0; v < 2; ++v) {
-    GripCounts counts, wanted;
+    sweeps::GripCounts counts, wanted;
     ASSERT_TRUE(read_counts(*swept.source, v, counts));
     // one azimuth stands for all
     wanted.grips = swept.plan->grips();
@@ -155,7 +155,7 @@ TEST(ReportMaps, CountsAreThoseOfTheFile) {
     unsplit += counts.through_table + counts.self_overlap + counts.only_deep;
   }
   EXPECT_EQ(unsplit, 0u) << "the file does not keep why grips are implausible";
-  GripCounts counts;
+  sweeps::GripCounts counts;
   EXPECT_FALSE(read_counts(*SweptScene(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"reason\"]")).source, 0, counts));
 }
 
@@ -164,7 +164,7 @@ TEST(ReportMaps, ImplausibleGripsAreToldApartWhereTheFileHasWhy) {
   const SweptScene swept(edited(RESULT_SCENE, "[output]", "[table]\n[output]\nalso = [\"through_table\", \"self_overlap\"]"));
   const auto reasons = read_values(swept.path, "reason"), plausible = read_values(swept.path, "plausible"),
              table = read_values(swept.path, "through_table"), overlap = read_values(swept.path, "self_overlap");
-  GripCounts counts, wanted;
+  sweeps::GripCounts counts, wanted;
   ASSERT_TRUE(read_counts(*swept.source, 0, counts));
   for (std::size_t at = 0; at < swept.plan->grips(); ++at) {
     if (reasons[at] != 0 || plausible[at] != 0) continue;

@@ -24,7 +24,7 @@ struct JudgedGrip {
     scene.score = {0.30, 0.10, 0.20, 0.10, 0.15, 0.15};
     scene.liquid.emplace();
     report.has_liquid = true;
-    report.hold = GripHold{};
+    report.hold = sweeps::GripHold{};
     report.hold->worst = 0.25;
     report.hold->worst_fill = 0.6;
     report.hold->worst_tilt = radians(90);
@@ -45,7 +45,7 @@ struct JudgedGrip {
   }
 
   Scene scene;
-  GripReport report;
+  sweeps::GripReport report;
 
   // In a list of grips.
   std::string text(const std::vector<RankedReport>& list = {}) const { return verdict(scene, report, list); }

@@ -27,7 +27,7 @@ namespace wholehand {
 namespace {
 
 std::string page_of(const SweptScene& swept, const std::string& mesh_error = "") {
-  SweepResult result(swept.path);
+  sweeps::SweepResult result(swept.path);
   return report_page(result, swept.scene, mesh_error);
 }
 
@@ -55,17 +55,19 @@ TEST(ReportPage, ShowsTheForcesOfTheFirstGripOfTheList) {
       edited(edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"), "apart_mm = 0", "apart_mm = 0\nalso = [\"push\"]"));
   const std::string list = swept.folder / "firm.csv";
   ASSERT_EQ(run("PROGRAM rank " + swept.path + " --rank-by push -o " + list + " >/dev/null").code, 0);
-  SweepResult result(swept.path);
+  sweeps::SweepResult result(swept.path);
   const std::string page = report_page(result, swept.scene, "", list);
   result.use(swept.scene, *swept.plan);
-  RankRequest request;
+  sweeps::RankRequest request;
   request.best = 5;
-  request.by = RankBy::push;
-  const Ranking ranking = rank_grips(result, swept.scene, *swept.plan, request, [&] { return make_core_evaluator(swept.scene); });
+  request.by = sweeps::RankBy::push;
+  const sweeps::Ranking ranking =
+      sweeps::rank_grips(result, swept.scene, *swept.plan, request, [&] { return make_core_evaluator(swept.scene); });
   int reordered = 0;
   for (std::size_t v = 0; v < 2; ++v) {
-    const std::vector<BestGrip>& listed = ranking.lists[v];
-    reordered += std::any_of(listed.begin(), listed.end(), [&](const BestGrip& grip) { return grip.score > listed[0].score; });
+    const std::vector<sweeps::BestGrip>& listed = ranking.lists[v];
+    reordered +=
+        std::any_of(listed.begin(), listed.end(), [&](const sweeps::BestGrip& grip) { return grip.score > listed[0].score; });
     EXPECT_TRUE(has(page, "The forces of the best grip: " + grip_text(*swept.plan, listed.at(0).grip) + ".")) << v;
   }
   EXPECT_GT(reordered, 0) << "else the order of the scores would say the same";
@@ -73,7 +75,7 @@ TEST(ReportPage, ShowsTheForcesOfTheFirstGripOfTheList) {
 
 TEST(ReportPage, TellsEachAxisAsTheSceneDoes) {
   const auto text = [](const Axis& axis, bool is_sobol) {
-    return axis_text(PlanAxis("offset", "m", "", AXIS_OFFSET, axis, is_sobol), 1e3, " mm");
+    return axis_text(sweeps::PlanAxis("offset", "m", "", AXIS_OFFSET, axis, is_sobol), 1e3, " mm");
   };
   const std::vector<double> nine{0.05, 0.01, 0.02, 0.03, 0.09, 0.06, 0.07, 0.08, 0.04};
   for (const bool is_sobol : {false, true}) {
@@ -176,8 +178,8 @@ TEST(ReportPage, EachHandScaleHasAListOfItsOwn) {
   const std::size_t large = page.find(">The best grips at hand scale 1.1</h3>", small);
   ASSERT_NE(large, std::string::npos);
   // each of its own grips: the score of its first is the first in its table
-  SweepResult result(swept.path);
-  const Plan plan(swept.scene, keeps_vectors(result.variables()));
+  sweeps::SweepResult result(swept.path);
+  const sweeps::Plan plan(swept.scene, sweeps::keeps_vectors(result.variables()));
   result.use(swept.scene, plan);
   for (const auto& [place, scale] : {std::pair<std::size_t, std::size_t>{small, 0}, {large, 1}}) {
     const std::size_t row = page.find("<tbody>", page.find("<table", place));

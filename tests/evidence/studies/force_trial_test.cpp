@@ -18,10 +18,10 @@ constexpr double RATE = 1000;
 // Ticks of a trial, one after the other; false: the watch has seen enough.
 class MadeTrial {
  public:
-  bool run(double seconds, SessionState state, double force = 3, double swing = 0, double frequency = 3) {
+  bool run(double seconds, device::SessionState state, double force = 3, double swing = 0, double frequency = 3) {
     bool goes_on = true;
     for (int k = 0; k < static_cast<int>(seconds * RATE) && goes_on; ++k) {
-      Tick tick;
+      device::Tick tick;
       tick.number = number_++;
       tick.state = state;
       tick.device.gap = gap;
@@ -45,23 +45,23 @@ TEST(ForceTrial, ChoicesAreNamedAsInThePaper) {
 
 TEST(ForceTrial, WhoMaintainsTheTiltHasHeld) {
   MadeTrial trial;
-  EXPECT_TRUE(trial.run(1, SessionState::free));
+  EXPECT_TRUE(trial.run(1, device::SessionState::free));
   EXPECT_FALSE(trial.watch.outcome().has_gripped);
-  EXPECT_TRUE(trial.run(2, SessionState::lift));
-  EXPECT_TRUE(trial.run(3, SessionState::tilt));
-  EXPECT_TRUE(trial.run(0.7, SessionState::maintain));
-  EXPECT_FALSE(trial.run(0.2, SessionState::maintain)) << "0.8 s are enough";
+  EXPECT_TRUE(trial.run(2, device::SessionState::lift));
+  EXPECT_TRUE(trial.run(3, device::SessionState::tilt));
+  EXPECT_TRUE(trial.run(0.7, device::SessionState::maintain));
+  EXPECT_FALSE(trial.run(0.2, device::SessionState::maintain)) << "0.8 s are enough";
   EXPECT_TRUE(trial.watch.outcome().has_gripped);
   EXPECT_TRUE(trial.watch.outcome().is_held());
-  EXPECT_FALSE(trial.run(0.1, SessionState::released)) << "the end of the session is no loss";
+  EXPECT_FALSE(trial.run(0.1, device::SessionState::released)) << "the end of the session is no loss";
   EXPECT_EQ(trial.watch.outcome().losses, 0);
 }
 
 TEST(ForceTrial, TwoLossesAreOften) {
   MadeTrial trial;
   for (int losses = 1; losses <= 3; ++losses) {
-    trial.run(0.5, SessionState::lift);
-    trial.run(0.5, SessionState::slipped);
+    trial.run(0.5, device::SessionState::lift);
+    trial.run(0.5, device::SessionState::slipped);
     EXPECT_EQ(trial.watch.outcome().losses, losses);
     EXPECT_EQ(trial.watch.outcome().is_lost(), losses >= 2);
   }
@@ -72,8 +72,8 @@ TEST(ForceTrial, TwoLossesAreOften) {
 TEST(ForceTrial, WhoFeelsNothingLosesNothing) {
   MadeTrial trial;
   for (int k = 0; k < 3; ++k) {
-    trial.run(0.5, SessionState::lift, 0.2);
-    trial.run(0.5, SessionState::free);
+    trial.run(0.5, device::SessionState::lift, 0.2);
+    trial.run(0.5, device::SessionState::free);
   }
   EXPECT_TRUE(trial.watch.outcome().has_gripped);
   EXPECT_EQ(trial.watch.outcome().losses, 0);
@@ -82,16 +82,16 @@ TEST(ForceTrial, WhoFeelsNothingLosesNothing) {
 
 TEST(ForceTrial, TheLargestOpeningIsBeyondEachGrasp) {
   MadeTrial trial;
-  trial.run(0.1, SessionState::lift);
+  trial.run(0.1, device::SessionState::lift);
   trial.gap = 0.0225;
-  trial.run(0.1, SessionState::lift);
+  trial.run(0.1, device::SessionState::lift);
   trial.gap = 0.018;
-  trial.run(0.1, SessionState::lift);
+  trial.run(0.1, device::SessionState::lift);
   EXPECT_NEAR(trial.watch.outcome().opening, 2.5e-3, 1e-12);
   // another grasp, from another gap
-  trial.run(0.1, SessionState::free);
+  trial.run(0.1, device::SessionState::free);
   trial.gap = 0.03;
-  trial.run(0.1, SessionState::lift);
+  trial.run(0.1, device::SessionState::lift);
   EXPECT_NEAR(trial.watch.outcome().opening, 2.5e-3, 1e-12);
 }
 
@@ -99,7 +99,7 @@ TEST(ForceTrial, TheLargestOpeningIsBeyondEachGrasp) {
 TEST(ForceTrial, AGripOscillatesThatSwingsWideAndOften) {
   const auto oscillates = [](double swing, double frequency, double force = 3.0) {
     MadeTrial trial;
-    trial.run(4, SessionState::lift, force, swing, frequency);
+    trial.run(4, device::SessionState::lift, force, swing, frequency);
     return trial.watch.outcome().oscillates;
   };
   EXPECT_TRUE(oscillates(0.4, 3));
@@ -111,8 +111,8 @@ TEST(ForceTrial, AGripOscillatesThatSwingsWideAndOften) {
 
 TEST(ForceTrial, NothingOscillatesWhileItSettlesOrTurns) {
   MadeTrial trial;
-  trial.run(0.9, SessionState::lift, 3, 1);
-  trial.run(3, SessionState::tilt, 3, 1);
+  trial.run(0.9, device::SessionState::lift, 3, 1);
+  trial.run(3, device::SessionState::tilt, 3, 1);
   EXPECT_FALSE(trial.watch.outcome().oscillates);
 }
 

@@ -33,8 +33,8 @@ SessionSampling sampling_of(int resamples, int threads = 1) {
 }
 
 // Tilted by 60 degrees and maintained.
-GraspReport tilted_grasp(int vessel, double increase, double change, GripCourse course = GripCourse::less) {
-  GraspReport grasp;
+device::GraspReport tilted_grasp(int vessel, double increase, double change, device::GripCourse course = device::GripCourse::less) {
+  device::GraspReport grasp;
   grasp.vessel = vessel;
   grasp.largest_tilt = radians(60);
   grasp.normal_increase = increase;
@@ -61,7 +61,7 @@ std::vector<SessionSubject> nine_grasps() {
   const double changes[3][3] = {{3, 2, 1}, {-1, 0, 1}, {1, 1, 1}};
   for (int v = 0; v < 3; ++v)
     for (int k = 0; k < 3; ++k) {
-      GraspReport grasp = tilted_grasp(v + 1, 3 * v + k + 1, changes[v][k]);
+      device::GraspReport grasp = tilted_grasp(v + 1, 3 * v + k + 1, changes[v][k]);
       grasp.response_time = 0.1 + 0.01 * k;
       grasp.tightened = 3 + v;
       grasp.before.mean = 2 + 2 * k;
@@ -120,24 +120,24 @@ TEST(SessionStatistics, AnalysisOfVariance) {
 TEST(SessionStatistics, SharesAreOfTheGraspsThatTheyAreSaidOf) {
   std::vector<SessionSubject> subjects(1);
   auto& grasps = subjects[0].grasps;
-  grasps = {tilted_grasp(1, 1, 0.5), tilted_grasp(1, 1, -0.5), tilted_grasp(1, 1, 0, GripCourse::complex),
-            tilted_grasp(1, 1, 2, GripCourse::more), tilted_grasp(1, 1, 1, GripCourse::equal)};
+  grasps = {tilted_grasp(1, 1, 0.5), tilted_grasp(1, 1, -0.5), tilted_grasp(1, 1, 0, device::GripCourse::complex),
+            tilted_grasp(1, 1, 2, device::GripCourse::more), tilted_grasp(1, 1, 1, device::GripCourse::equal)};
   grasps[0].after_at_first = 8.5;
   grasps[1].after_at_first = 0.5;
-  grasps[2].after_at_first = 8;           // not over 8
-  grasps[3].after_at_first = 1;           // nor under 1
-  grasps[4].after_at_first = Tick::NONE;  // nothing is maintained
+  grasps[2].after_at_first = 8;                   // not over 8
+  grasps[3].after_at_first = 1;                   // nor under 1
+  grasps[4].after_at_first = device::Tick::NONE;  // nothing is maintained
   // saturated: no type, and still maintained
-  grasps.push_back(tilted_grasp(1, 9, 9, GripCourse::not_analyzed));
+  grasps.push_back(tilted_grasp(1, 9, 9, device::GripCourse::not_analyzed));
   // hardly tilted, and lost
-  grasps.push_back(tilted_grasp(1, 9, 9, GripCourse::not_analyzed));
+  grasps.push_back(tilted_grasp(1, 9, 9, device::GripCourse::not_analyzed));
   grasps.back().largest_tilt = radians(29);
   grasps.back().after_at_first = 9;
   grasps.back().before.mean = 100;
-  grasps.back().outcome = GraspOutcome::lost;
+  grasps.back().outcome = device::GraspOutcome::lost;
   // a grasp of a vessel that nobody pours from
-  grasps.push_back(tilted_grasp(0, 50, 50, GripCourse::more));
-  grasps.back().outcome = GraspOutcome::lost;
+  grasps.push_back(tilted_grasp(0, 50, 50, device::GripCourse::more));
+  grasps.back().outcome = device::GraspOutcome::lost;
   const auto rows = session_rows(subjects, SESSION_VESSELS, sampling_of(5));
   for (const char* vessel : {"all", "first"}) {
     EXPECT_DOUBLE_EQ(session_value(rows, vessel, "g1_share"), 0.2) << vessel;
@@ -163,8 +163,8 @@ TEST(SessionStatistics, TypesOfWholeSessions) {
                                                  [](double x) { return 3 + std::sin(1.75 * PI * x) + 0.8 * x; }};
   std::vector<SessionSubject> subjects;
   for (const auto& grip : grips) {
-    GraspCollector collector(1000, 8);
-    for (const Tick& tick : tilted_session(radians(60), grip, normal).recording.ticks) collector.add(tick);
+    device::GraspCollector collector(1000, 8);
+    for (const device::Tick& tick : tilted_session(radians(60), grip, normal).recording.ticks) collector.add(tick);
     subjects.push_back({collector.finish()});
   }
   const auto rows = session_rows(subjects, {{0, "one"}}, sampling_of(5));
@@ -230,7 +230,8 @@ TEST(SessionStatistics, SamplesHaveThePapersSize) {
   std::vector<SessionSubject> subjects(12);
   for (std::size_t k = 0; k < subjects.size(); ++k) {
     subjects[k].grasps.assign(10, tilted_grasp(1, 1, 1));
-    for (GraspReport& grasp : subjects[k].grasps) grasp.outcome = k % 2 == 0 ? GraspOutcome::lost : GraspOutcome::let_go;
+    for (device::GraspReport& grasp : subjects[k].grasps)
+      grasp.outcome = k % 2 == 0 ? device::GraspOutcome::lost : device::GraspOutcome::let_go;
   }
   const auto rows = session_rows(subjects, SESSION_VESSELS, sampling_of(41));
   const StudyRow& row = session_row(rows, "first", "lost_share");

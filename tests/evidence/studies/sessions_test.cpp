@@ -35,7 +35,7 @@ Scene one_beaker(std::size_t vessel = 1) {
   return scene;
 }
 
-bool same(const std::vector<GraspReport>& a, const std::vector<GraspReport>& b) {
+bool same(const std::vector<device::GraspReport>& a, const std::vector<device::GraspReport>& b) {
   const std::vector<double> x = to_numbers({a, 0}), y = to_numbers({b, 0});
   if (x.size() != y.size()) return false;
   for (std::size_t k = 0; k < x.size(); ++k)
@@ -48,11 +48,11 @@ TEST(Sessions, AreMeasuredAsRecordingsAre) {
   Scene scene = one_beaker();
   const Participant person(scene.people, 1, 5, Experiment::sessions);
   scene.hand = person.hand(scene.hand);
-  Recording recording;
-  GraspCollector collector(scene.live.rate, scene.force.max);
+  device::Recording recording;
+  device::GraspCollector collector(scene.live.rate, scene.force.max);
   run_simulated(
       {scene, person, tremor_seed(scene, 1, 5, 0), jobs_of(scene)},
-      [&](const Tick& tick, const Session&) {
+      [&](const device::Tick& tick, const device::Session&) {
         recording.ticks.push_back(tick);
         collector.add(tick);
         return true;
@@ -61,13 +61,13 @@ TEST(Sessions, AreMeasuredAsRecordingsAre) {
   recording.info.rate = scene.live.rate;
   recording.info.force_max = scene.force.max;
   recording.info.vessels = {{scene.vessels[0].name, "red", 2}};
-  const std::vector<GraspReport> first = collector.finish(), all = sessions_of_person(one_beaker(), 1, 5, GOES_ON).grasps;
-  EXPECT_TRUE(same(report_session(recording).grasps, first));
+  const std::vector<device::GraspReport> first = collector.finish(), all = sessions_of_person(one_beaker(), 1, 5, GOES_ON).grasps;
+  EXPECT_TRUE(same(device::report_session(recording).grasps, first));
   ASSERT_GT(all.size(), first.size()) << "there is a second session";
   EXPECT_TRUE(same({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first.size())}, first));
   EXPECT_FALSE(same({all.begin() + static_cast<std::ptrdiff_t>(first.size()), all.end()}, first)) << "with grasps of its own";
   ASSERT_FALSE(first.empty());
-  EXPECT_GT(first[0].largest_tilt, LEAST_ANALYZED);
+  EXPECT_GT(first[0].largest_tilt, device::LEAST_ANALYZED);
   EXPECT_GT(first[0].normal_increase, 0);
 }
 
@@ -90,7 +90,7 @@ TEST(Sessions, TheGripRisesByGainAndMargin) {
     scene.people.traits[static_cast<std::size_t>(Trait::grip_error)].mean = 1e-6;
     scene.people.traits[static_cast<std::size_t>(Trait::grip_tremor)].mean = 1e-6;
     const double margin = scene.people.traits[static_cast<std::size_t>(Trait::margin)].mean;
-    const std::vector<GraspReport> grasps = sessions_of_person(scene, 1, 0, GOES_ON).grasps;
+    const std::vector<device::GraspReport> grasps = sessions_of_person(scene, 1, 0, GOES_ON).grasps;
     ASSERT_EQ(grasps.size(), 2u);
     const double wanted = (gain / (1 - margin) - 1) * grasps[0].normal_increase;
     // the liquid's weight does not change the load, since it is the expected weight; the response comes late
@@ -104,7 +104,7 @@ TEST(Sessions, WhoMakesMoreOfTheRiseIsAheadOfTheLoad) {
     Scene scene = one_beaker(3);
     scene.people.scatter = 0;
     scene.people.traits[static_cast<std::size_t>(Trait::gain)].mean = gain;
-    const std::vector<GraspReport> grasps = sessions_of_person(scene, 1, 0, GOES_ON).grasps;
+    const std::vector<device::GraspReport> grasps = sessions_of_person(scene, 1, 0, GOES_ON).grasps;
     EXPECT_FALSE(grasps.empty());
     EXPECT_GT(grasps[0].normal_increase, 2);
     return grasps[0].grip_change;
@@ -126,11 +126,11 @@ TEST(Sessions, PeopleAtTheEndsOfTheirRangesComeToAnEnd) {
       double last = 0;
       run_simulated(
           {scene, person, 1, jobs_of(scene)},
-          [&](const Tick& tick, const Session&) {
+          [&](const device::Tick& tick, const device::Session&) {
             EXPECT_TRUE(std::isfinite(tick.device.gap + tick.device.position[0] + tick.device.position[1] +
                                       tick.device.position[2] + tick.written.grip))
                 << fact.key << ' ' << value << ' ' << tick.number;
-            EXPECT_LE(std::abs(tick.written.grip), PAPER_GRIP) << fact.key << ' ' << value << ' ' << tick.number;
+            EXPECT_LE(std::abs(tick.written.grip), device::PAPER_GRIP) << fact.key << ' ' << value << ' ' << tick.number;
             last = static_cast<double>(tick.number) / scene.live.rate;
             return !testing::Test::HasFailure();
           },
@@ -141,10 +141,10 @@ TEST(Sessions, PeopleAtTheEndsOfTheirRangesComeToAnEnd) {
 }
 
 TEST(Sessions, GraspsSurviveAsNumbers) {
-  const std::vector<GraspReport> grasps = sessions_of_person(one_beaker(), 1, 3, GOES_ON).grasps;
+  const std::vector<device::GraspReport> grasps = sessions_of_person(one_beaker(), 1, 3, GOES_ON).grasps;
   ASSERT_FALSE(grasps.empty());
   const PersonSessions whole = sessions_from_numbers(to_numbers({grasps, 1}));
-  const std::vector<GraspReport>& again = whole.grasps;
+  const std::vector<device::GraspReport>& again = whole.grasps;
   EXPECT_EQ(whole.broken, 1);
   EXPECT_TRUE(same(again, grasps));
   ASSERT_EQ(again.size(), grasps.size());
@@ -155,7 +155,7 @@ TEST(Sessions, GraspsSurviveAsNumbers) {
   EXPECT_EQ(again[0].after_at_first, grasps[0].after_at_first);
   // a member that to_numbers leaves out would be lost: 16 numbers, 3 durations, 3 means of 3 numbers, and 3 names
   EXPECT_EQ(to_numbers({grasps, 0}).size(), 1 + 31 * grasps.size());
-  EXPECT_EQ(sizeof(GraspReport), 16 * 8 + 3 * 8 + 9 * 8 + 8 + 8u) << "with the names, each padded to a number";
+  EXPECT_EQ(sizeof(device::GraspReport), 16 * 8 + 3 * 8 + 9 * 8 + 8 + 8u) << "with the names, each padded to a number";
 }
 
 TEST(StudyJournal, GoesOnAndRefusesAnother) {

@@ -427,8 +427,8 @@ TEST_F(MujocoEngine, WhatEffortCallsInfiniteIsNotHeldWhereItIs) {
     GripResult result;
     evaluator_->grip(2, grip, result);
     if (result.reason != Reason::none || !result.plausible) continue;
-    const Holding holding(scene_, *evaluator_, 2, result, pour_direction(scene_, grip));
-    GripState state;
+    const sweeps::Holding holding(scene_, *evaluator_, 2, result, sweeps::pour_direction(scene_, grip));
+    sweeps::GripState state;
     state.fill = 0.5;
     state.liquid = evaluator_->liquid(2, state.fill, 0);
     state.state = evaluator_->state(2, grip, result, state.liquid, 0);

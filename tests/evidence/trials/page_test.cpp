@@ -107,7 +107,7 @@ TEST_F(TrialsPage, LinksToRecordings) {
   for (int k = 1; k <= links; ++k) {
     const std::string name = TrialFiles::recording_name(static_cast<std::size_t>(k));
     EXPECT_TRUE(has(page, "href=\"" + name + "\"")) << name;
-    const Recording recording = read_recording(*folder / ("trials/" + name));
+    const device::Recording recording = device::read_recording(*folder / ("trials/" + name));
     EXPECT_TRUE(recording.note.empty()) << recording.note;
     EXPECT_EQ(parse_scene(recording.info.scene_text, "").vessels.size(), 1u);
   }

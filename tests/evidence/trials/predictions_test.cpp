@@ -40,11 +40,12 @@ TEST(TrialPredictions, AreThoseOfAGripAndASweep) {
   const auto cases = all_cases(scene);
   const TrialPredictor predictor(scene, {});
   const GripPrediction found = predictor.predict(0, good_grip(), cases);
-  StateAxes axes{usual_fills(scene, *predictor.core(), 0), usual_tilts(scene)};
-  GripReport report = make_grip_report(scene, 0, good_grip(), axes, core_grip_methods(scene, predictor.core(), "core"));
+  sweeps::StateAxes axes{usual_fills(scene, *predictor.core(), 0), usual_tilts(scene)};
+  sweeps::GripReport report =
+      sweeps::make_grip_report(scene, 0, good_grip(), axes, sweeps::core_grip_methods(scene, predictor.core(), "core"));
   ASSERT_EQ(report.answer.result.reason, Reason::none);
   ASSERT_TRUE(report.answer.result.plausible);
-  add_holding(report, scene, 0);
+  sweeps::add_holding(report, scene, 0);
   double worst = 0, tips = 0;
   for (std::size_t k = 0; k < report.holds.size(); ++k) {
     EXPECT_NEAR(found.cases[k].effort, report.holds[k].effort, SAME_KERNELS) << k;

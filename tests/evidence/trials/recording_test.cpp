@@ -111,7 +111,7 @@ TEST(TrialRecording, WorldStandsUpright) {
   GripResult result;
   core->grip(grip.vessel, grip.grip, result);
   for (std::size_t k = 0; k < ticks.size(); ++k) {
-    const Tick& tick = ticks[k];
+    const device::Tick& tick = ticks[k];
     EXPECT_EQ(tick.number, 20 * static_cast<std::int64_t>(k));
     // a right hand's first axis runs along the tips
     const auto along = to_mat3(tick.hand_rotation)[0], apart = to_vec3(tick.tips[1]) - to_vec3(tick.tips[0]);
@@ -121,7 +121,7 @@ TEST(TrialRecording, WorldStandsUpright) {
     if (k <= 25) {
       EXPECT_NEAR(tick.tilt, frames[k].time, 1e-9);
     }
-    EXPECT_EQ(tick.state == SessionState::slipped, k >= 25) << k;
+    EXPECT_EQ(tick.state == device::SessionState::slipped, k >= 25) << k;
   }
 }
 
@@ -132,12 +132,12 @@ void expect_hand_of_the_grip(const Scene& scene) {
   const TrialGrip grip = grip_of_flask();
   const std::string path = folder / TrialFiles::recording_name(1);
   write_trial_recording(path, scene, *core, "stand-in", grip, {}, lost_after_half_a_second(), falling_tracks(*core, grip));
-  Recording recording = read_recording(path);
+  device::Recording recording = device::read_recording(path);
   EXPECT_TRUE(recording.note.empty()) << recording.note;
   EXPECT_EQ(recording.ticks.size(), 51u);
   EXPECT_EQ(recording.info.device.name, "wholehand trials: stand-in");
   const Scene own = parse_scene(recording.info.scene_text, recording.info.scene_file);
-  const Tick first = recording.ticks[0];
+  const device::Tick first = recording.ticks[0];
   const RecordingView view(own, std::move(recording));
   const auto frames = view.frames(0, 1, 50);
   ASSERT_EQ(frames.size(), 51u);

@@ -36,7 +36,7 @@ class TrialsTest : public testing::Test {
   Scene scene = scene_for_trials();
   TrialOptions options = few_trials(folder / "trials");
 
-  TrialsRun run(const OpenTrialEngine& open = open_fake_engine(), SweepResult* result = nullptr) {
+  TrialsRun run(const OpenTrialEngine& open = open_fake_engine(), sweeps::SweepResult* result = nullptr) {
     TrialsRun ran;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
@@ -142,11 +142,11 @@ TEST_F(TrialsTest, GripsOfAResultAreThoseOfItsScene) {
     options.folder = folder / (name + "_of_scene");
     ASSERT_EQ(run().code, ExitCode::done);
     const std::string of_scene = csv();
-    const SweepOptions sweep{.output = folder / (name + ".nc"), .on = "core", .best = 2, .refine = false};
+    const sweeps::SweepOptions sweep{.output = folder / (name + ".nc"), .on = "core", .best = 2, .refine = false};
     testing::internal::CaptureStdout();
-    EXPECT_EQ(run_sweep(scene, sweep), ExitCode::done);
+    EXPECT_EQ(sweeps::run_sweep(scene, sweep), ExitCode::done);
     testing::internal::GetCapturedStdout();
-    SweepResult result(sweep.output);
+    sweeps::SweepResult result(sweep.output);
     options.folder = folder / (name + "_of_result");
     const TrialsRun ran = run(open_fake_engine(), &result);
     ASSERT_EQ(ran.code, ExitCode::done) << ran.error;

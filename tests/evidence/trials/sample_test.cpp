@@ -95,7 +95,7 @@ Scene few_grips() {
 
 TEST(TrialSample, BestAndSampleAreToldApart) {
   const Scene scene = few_grips();
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
   TrialOptions options;
   options.best = 2;
@@ -154,7 +154,7 @@ TEST(TrialSample, OneOfFiveBeginsTooDeep) {
 
 TEST(TrialSample, DeepGripsAreThoseTheCoreFindsDeep) {
   const Scene scene = few_grips();
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
   const std::atomic<bool> stop = false;
   const TrialOptions options;
@@ -177,7 +177,7 @@ TEST(TrialSample, NoFeasibleGripIsRefused) {
   scene.hand.depth_limit = 0;
   scene.grips.height = Axis{{0.01}};  // under the clearance of the table
   scene.table = TableData{};
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   const std::atomic<bool> stop = false;
   const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
   EXPECT_NE(refusal_line([&] {

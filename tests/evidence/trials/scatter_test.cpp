@@ -65,7 +65,7 @@ class Scatter : public testing::Test {
 
   // Feasible, plausible grips of a vessel.
   std::vector<TrialGrip> grips_of(std::size_t vessel) const {
-    const Plan plan(scene, false);
+    const sweeps::Plan plan(scene, false);
     const auto core = make_core_evaluator(scene);
     std::vector<TrialGrip> grips;
     for (std::uint64_t number = 0; number < plan.grips(); ++number) {
@@ -174,17 +174,17 @@ TEST_F(Scatter, RobustScoresAreThoseOfASweep) {
   scene.robust->roll = radians(10);
   scene.robust->friction = 0.1;
   scene.robust->hand_scale = 0.03;
-  const Plan plan(scene, false);
+  const sweeps::Plan plan(scene, false);
   const GripScatter scatter = by_effort();
-  const OpenBackend open = [](const Scene& other, const FieldSet& fields) {
+  const sweeps::OpenBackend open = [](const Scene& other, const FieldSet& fields) {
     return std::make_unique<CoreBackend>(make_core_evaluator(other), other, fields, Precision::full, 1);
   };
   double varied = 0;
   for (const TrialGrip& grip : grips_of(1)) {
-    std::vector<std::vector<BestGrip>> lists(scene.vessels.size());
-    lists[1].push_back(bare_grip(plan, 1, {0, grip.number}));
-    ASSERT_TRUE(rank_robustly(open, scene, plan, 1, nullptr, lists));
-    const RobustScore expected = lists[1][0].robust, found = scatter.robust(grip);
+    std::vector<std::vector<sweeps::BestGrip>> lists(scene.vessels.size());
+    lists[1].push_back(sweeps::bare_grip(plan, 1, {0, grip.number}));
+    ASSERT_TRUE(sweeps::rank_robustly(open, scene, plan, 1, nullptr, lists));
+    const sweeps::RobustScore expected = lists[1][0].robust, found = scatter.robust(grip);
     EXPECT_NEAR(found.low, expected.low, 1e-12);
     EXPECT_NEAR(found.mean, expected.mean, 1e-12);
     EXPECT_EQ(found.share, expected.share);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(Packet, GivesBackWhatWasPut) {
@@ -37,4 +37,4 @@ TEST(Packet, RefusesOneThatIsCut) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // A word a rank, a letter a processor: x may be used.
@@ -49,4 +49,4 @@ TEST(Processors, EverybodyHasOne) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -19,7 +19,7 @@
 #include "host/open_backend.h"
 #include "sweeps/cluster/cluster_sweep.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // MPI begins once in a process.
@@ -142,4 +142,4 @@ roll_deg = { from = -90, to = 30, count = 5 }
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(WorkRange, APieceMayReachOverVessels) {
@@ -103,4 +103,4 @@ TEST(PieceSize, ASlowRankEndsWithTheOthers) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

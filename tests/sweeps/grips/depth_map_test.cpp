@@ -8,7 +8,7 @@
 
 #include "tests/support/meshes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double SINGLE = 1e-8;  // m: single precision of some 10 cm
@@ -107,4 +107,4 @@ TEST(DepthMap, ARasterIsNeverTooLarge) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -20,7 +20,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 const GripInput GRIP{0.0585, 0.5, 0.1, 0.38, 0.002, 1};
@@ -372,4 +372,4 @@ TEST(GripGlb, NothingToDraw) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -14,7 +14,7 @@
 #include "core/evaluator.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 LongRotation rotation_of(const Quaternion& q) {
@@ -163,4 +163,4 @@ TEST(HandNodes, AChildsPlaceIsThatInItsParent) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -14,7 +14,7 @@
 #include "sweeps/grips/states.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using core_f64::EffortSolver;
@@ -293,4 +293,4 @@ TEST(Holding, TheTableTellsTheListedStatesFromTheScenesOwn) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

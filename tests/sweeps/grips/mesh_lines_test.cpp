@@ -11,7 +11,7 @@
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double PIXEL = 0.2e-3;
@@ -217,4 +217,4 @@ TEST(MeshLines, SimplifiedLinesStayWithinTheTolerance) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

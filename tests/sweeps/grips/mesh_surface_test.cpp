@@ -10,7 +10,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // The same triangles in the same places, with unit normals.
@@ -80,4 +80,4 @@ TEST(MeshSurface, OpenAndDegenerateOnesHaveNormalsToo) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

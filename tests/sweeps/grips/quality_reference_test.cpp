@@ -17,7 +17,7 @@
 #include "sweeps/grips/quality.h"
 #include "tests/support/contact_sets.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using core_f64::ContactPoint;
@@ -147,4 +147,4 @@ TEST(QualityReference, BracketsOverlapThoseOfEdgedCones) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -17,7 +17,7 @@
 #include "sweeps/grips/report.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using core_f64::ContactPoint;
@@ -272,4 +272,4 @@ TEST(Quality, IsInTheReport) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

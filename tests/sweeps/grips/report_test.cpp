@@ -18,7 +18,7 @@
 #include "core/counted_tilts.h"
 #include "core/reader/reader.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -516,4 +516,4 @@ TEST(GripVerdict, SaysWhyItDoesNotHold) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

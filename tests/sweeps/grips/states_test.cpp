@@ -11,7 +11,7 @@
 
 #include "base/text/error.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(GripStates, AProjectedPointTouchesToo) {
@@ -112,4 +112,4 @@ TEST(GripStates, AStateWithoutAnEffortIsNotTheHardest) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

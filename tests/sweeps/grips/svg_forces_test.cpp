@@ -16,7 +16,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/xml.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double TWO_DECIMALS = 0.011;  // mm, of a difference of places that are written with two
@@ -240,4 +240,4 @@ TEST(GripSvgForces, WithoutAForceTheDrawingIsAsBefore) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

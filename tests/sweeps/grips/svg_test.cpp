@@ -20,7 +20,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/xml.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 GripReport report_of(const Scene& scene, std::size_t vessel, const GripInput& grip) {
@@ -371,4 +371,4 @@ TEST(GripSvg, NothingToDraw) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -12,7 +12,7 @@
 #include "base/text/error.h"
 #include "tests/support/fake_backend.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 std::vector<std::string> lines(const std::string& text) {
@@ -213,4 +213,4 @@ TEST(Best, SceneWithoutTiltsHasNoForces) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

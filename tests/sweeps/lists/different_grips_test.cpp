@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <random>
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double QUARTER = 0.25;  // m, so that sums of it are exact
@@ -83,4 +83,4 @@ TEST(DifferentGrips, TheChoiceIsThatOfASearchThroughAllPairs) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -12,7 +12,7 @@
 
 #include "tests/support/fake_backend.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // The definition: all grips of a list in order, each compared with all taken before.
@@ -201,4 +201,4 @@ TEST(ListChooser, HandsArePosedOnlyWhereTheyDecide) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

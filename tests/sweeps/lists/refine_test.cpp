@@ -17,7 +17,7 @@
 #include "tests/support/scene_texts.h"
 #include "tests/support/sweep_results.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using Place = std::array<double, REFINED_COORDINATES>;
@@ -263,4 +263,4 @@ TEST(Refine, ADamagedRefinedGripIsRefused) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -35,7 +35,7 @@
 #include "tests/support/sweep_results.h"
 #include "tests/support/sweep_trial.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(Robust, PercentilesLieBetweenScores) {
@@ -674,4 +674,4 @@ TEST_F(RobustRun, WithoutTheTableThereIsNothingOfIt) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 
 #include "tests/support/fake_backend.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 using Keys = std::vector<std::string>;
@@ -132,4 +132,4 @@ TEST(Edge, TheLineNamesThemAll) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

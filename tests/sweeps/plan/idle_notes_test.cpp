@@ -11,7 +11,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/sweep_trial.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 std::string notes_of(const Scene& scene, std::size_t best = 5) {
@@ -107,4 +107,4 @@ TEST_F(IdleNotesRun, ASweepSaysThem) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

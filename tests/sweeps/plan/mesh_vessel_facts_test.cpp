@@ -15,7 +15,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/whole_parity.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST_F(MeshVessel, LongWorkIsSaidBeforeWithItsTime) {
@@ -273,4 +273,4 @@ TEST_F(MeshVessel, ALatticeFitsTheDevice) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

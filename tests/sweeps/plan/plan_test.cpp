@@ -14,7 +14,7 @@
 #include "tests/support/fake_backend.h"
 #include "tests/support/refusal.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 std::vector<GripInput> grips(const Plan& plan, std::size_t vessel, std::uint64_t first, std::size_t count) {
@@ -306,4 +306,4 @@ TEST(Plan, ResultsThatDoNotFitTheDiskAreRefused) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -11,7 +11,7 @@
 #include "tests/support/fake_backend.h"
 #include "tests/support/refusal.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 std::vector<std::string> names(const std::vector<const Variable*>& variables) {
@@ -257,4 +257,4 @@ TEST(Variables, BytesPerGripAreThoseOfTheFile) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -8,7 +8,7 @@
 #include "base/text/error.h"
 #include "tests/support/fake_backend.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 std::vector<VesselFacts> facts_of(const Scene& scene) {
@@ -45,4 +45,4 @@ TEST(VesselFacts, TableOfAnotherSizeIsAnError) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

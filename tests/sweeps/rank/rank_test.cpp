@@ -18,7 +18,7 @@
 #include "tests/support/scene_texts.h"
 #include "tests/support/sweep_results.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 const std::array<const char*, 6> TERM_NAMES{"fingers", "contacts", "depth", "posture", "force", "hold"};
@@ -437,4 +437,4 @@ TEST(Rank, GripsOfSeveralRankingsAreMergedByWhatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -17,7 +17,7 @@
 #include "tests/support/scene_texts.h"
 #include "tests/support/sweep_results.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // 5.5 kg of steel.
@@ -200,4 +200,4 @@ TEST(Unheld, WhereNoForceHoldsItIsTheGripOfLeastFriction) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

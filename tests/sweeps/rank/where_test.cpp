@@ -11,7 +11,7 @@
 #include "base/text/error.h"
 #include "core/scene.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 const std::vector<WhereName> NAMES{
@@ -142,4 +142,4 @@ TEST(Where, WhatIsWrongIsToldWithItsColumn) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -15,7 +15,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,4 +106,4 @@ TEST_F(BestGlbTest, WhatOnlyTheSweepsPrecisionHoldsIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -15,7 +15,7 @@
 #include "tests/support/fake_backend.h"
 #include "tests/support/files.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 std::string companion_refusal(const Scene& scene, const OutputNames& names, bool best, bool pictures, int glb) {
@@ -108,4 +108,4 @@ TEST(Companions, WhatIsNotWrittenIsNotLookedAt) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -24,7 +24,7 @@
 #include "tests/support/result_reader.h"
 #include "tests/support/sweep_results.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Small, and with all that a result has but most of its numbers.
@@ -176,4 +176,4 @@ TEST(GuardedFile, ANameInTheFormOfAnAddressIsAFileAllTheSame) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

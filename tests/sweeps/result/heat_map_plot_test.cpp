@@ -18,7 +18,7 @@
 #include "tests/support/files.h"
 #include "tests/support/xml.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // A map of 7 heights x 4 rolls: one cell infeasible, one implausible, the others 0.4 to 0.81.
@@ -195,4 +195,4 @@ TEST(HeatMapPlot, VesselNamesBecomeFileNames) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

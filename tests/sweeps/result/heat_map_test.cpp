@@ -10,7 +10,7 @@
 #include "base/text/error.h"
 #include "tests/support/fake_backend.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // The map of a scene's first vessel, gathered in chunks of `chunk`.
@@ -159,4 +159,4 @@ TEST(HeatMap, TakesWhatOthersFound) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

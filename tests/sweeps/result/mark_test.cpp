@@ -15,7 +15,7 @@
 #include "tests/support/files.h"
 #include "tests/support/refusal.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 SweepMark some_mark() {
@@ -256,4 +256,4 @@ TEST(Mark, WithoutRoomTheRemedyIsSaid) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -7,7 +7,7 @@
 
 #include "tests/support/files.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(OutputNames, NamesGoTogether) {
@@ -30,4 +30,4 @@ TEST(OutputNames, GoWhereALinkPoints) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

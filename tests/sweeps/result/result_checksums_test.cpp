@@ -21,7 +21,7 @@
 #include "tests/support/sweep_file.h"
 #include "tests/support/sweep_results.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // All that readers take from a result, as text.
@@ -198,4 +198,4 @@ TEST_F(FlippedResult, ReportRefusesADamagedVariableThatItDoesNotShow) {
 #endif
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

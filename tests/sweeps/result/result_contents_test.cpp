@@ -13,7 +13,7 @@
 #include "tests/support/files.h"
 #include "tests/support/result_reader.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // A defined file with nothing of the grips in it.
@@ -273,4 +273,4 @@ TEST_F(ResultContentsTest, FileThatCannotBeMadeIsAnError) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

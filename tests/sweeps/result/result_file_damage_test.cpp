@@ -21,7 +21,7 @@
 #include "tests/support/result_reader.h"
 #include "tests/support/sweep_file.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(ResultFile, ResumedInPartsIsTheSame) {
@@ -227,4 +227,4 @@ TEST(ResultFile, ResumingWhatIsNoResultFileIsRefused) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

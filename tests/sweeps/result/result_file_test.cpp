@@ -22,7 +22,7 @@
 #include "tests/support/result_reader.h"
 #include "tests/support/sweep_file.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(ResultFile, EveryValueIsInItsPlace) {
@@ -251,4 +251,4 @@ TEST(ResultFile, TheBestOfAllHandScalesAreWrittenInPlace) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

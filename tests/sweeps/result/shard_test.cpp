@@ -11,7 +11,7 @@
 #include "sweeps/result/output_names.h"
 #include "tests/support/files.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 const RunLayout LAYOUT{10, 1, {{600, 1, 8}}, {}, {}};
@@ -65,4 +65,4 @@ TEST(RunLayout, NoTwoValuesShareAPlace) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -20,7 +20,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/sweep_results.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -358,4 +358,4 @@ TEST(SweepResultTest, AnotherSceneThanTheFilesOwnIsRefused) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

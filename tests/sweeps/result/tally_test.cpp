@@ -8,7 +8,7 @@
 
 #include "tests/support/fake_backend.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(Tally, CountsByReasonAndAmongTheFeasible) {
@@ -131,4 +131,4 @@ TEST(Tally, NothingFeasibleSaysNoMore) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

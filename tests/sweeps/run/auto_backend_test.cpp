@@ -26,7 +26,7 @@
 #include "tests/support/files.h"
 #include "tests/support/refusal.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr Workload SMALL{10'000, 155}, LARGE{100'000'000, 155, true};
@@ -251,4 +251,4 @@ TEST_F(AutoBackendTest, AnInterruptedSweepGoesOnWhereItBegan) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -11,7 +11,7 @@
 #include "tests/support/result_reader.h"
 #include "tests/support/sweep_results.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Rolls all the way round, so that there are hands from below with the palm up.
@@ -67,4 +67,4 @@ TEST(BeyondWrist, NoListHasAHandThatNoArmReaches) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -9,7 +9,7 @@
 
 #include "tests/support/fake_backend.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(Closing, OpeningSaysWhatIsEvaluatedAndWhere) {
@@ -149,4 +149,4 @@ TEST(Closing, TheLastLineSaysWhatComputed) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

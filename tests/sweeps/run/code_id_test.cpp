@@ -12,7 +12,7 @@
 
 #include "tests/support/files.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST(CodeId, ChangesWithEachSourceThatComputesAndWithTheSettings) {
@@ -55,4 +55,4 @@ TEST(CodeId, IsADigest) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -16,7 +16,7 @@
 #include "sweeps/plan/variables.h"
 #include "tests/support/vulkan_listener.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr std::size_t TEST_GRIPS = 768;  // few, since each test times a dozen variants; the efforts of 64 of them are searched
@@ -245,4 +245,4 @@ TEST(Explain, SaysWhereNothingCanBeSaved) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -18,7 +18,7 @@
 #include "tests/support/natural_scenes.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 Scene one_beaker() {
@@ -169,4 +169,4 @@ TEST(FewEfforts, LeaveTheListsOfRandomScenes) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

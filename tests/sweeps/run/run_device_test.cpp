@@ -20,7 +20,7 @@
 #include "tests/support/result_reader.h"
 #include "tests/support/scenes.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Two vessels of 1,728 grips: more than the 1,024 of the first chunk, so that a sweep may end between two.
@@ -138,4 +138,4 @@ TEST(RunOnADevice, DifferentBestGripsAreThoseOfTheDefinitionAfterABreakToo) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -14,7 +14,7 @@
 #include "tests/support/fake_backend.h"
 #include "tests/support/sweep_trial.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 constexpr double APART = 0.3;  // as fake hands lie: a handful of grips is near each other
@@ -237,4 +237,4 @@ TEST_F(RunTest, OnePassIsEnoughWhereTheListFills) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

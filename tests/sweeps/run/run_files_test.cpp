@@ -12,7 +12,7 @@
 #include "tests/support/result_reader.h"
 #include "tests/support/sweep_trial.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 // Two starts at the same moment: one of them does the sweep, or both one after the other; the file is whole whatever they do.
@@ -190,4 +190,4 @@ TEST_F(RunTest, FileSizeLimitAndFullDisk) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

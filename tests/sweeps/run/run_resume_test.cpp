@@ -19,7 +19,7 @@
 #include "tests/support/result_reader.h"
 #include "tests/support/sweep_trial.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST_F(RunTest, KilledAndResumedIsTheSameBitForBit) {
@@ -351,4 +351,4 @@ TEST_F(RunTest, AMarkThatContradictsItselfIsRefused) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps

@@ -21,7 +21,7 @@
 #include "tests/support/result_reader.h"
 #include "tests/support/sweep_trial.h"
 
-namespace wholehand {
+namespace wholehand::sweeps {
 namespace {
 
 TEST_F(RunTest, WritesAllFilesAndSaysWhatItDid) {
@@ -323,4 +323,4 @@ TEST_F(RunTest, APictureThatCannotBeWrittenIsMissingAlone) {
 }
 
 }  // namespace
-}  // namespace wholehand
+}  // namespace wholehand::sweeps
