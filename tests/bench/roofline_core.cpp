@@ -20,7 +20,7 @@ double median(std::vector<double> values) {
 
 // A workload's sample, ready to be run.
 struct CoreRun {
-  CoreRun(const sweeps::Workload& workload, const CoreWay& way)
+  CoreRun(const Workload& workload, const CoreWay& way)
       : backend(core_of(workload.scene, way.precision), workload.scene, workload.fields, way.precision, way.all_threads ? 0 : 1) {
     for (std::size_t v = 0; v < workload.scene.vessels.size(); ++v) samples.push_back(sample_of(workload, v));
   }
@@ -42,9 +42,9 @@ struct CoreRun {
 };
 
 // Cost of each step, without those before it.
-std::vector<Cost> step_costs(const std::vector<sweeps::Workload>& workloads, const CoreWay& way) {
+std::vector<Cost> step_costs(const std::vector<Workload>& workloads, const CoreWay& way) {
   std::vector<std::unique_ptr<CoreRun>> runs;
-  for (const sweeps::Workload& workload : workloads) runs.push_back(std::make_unique<CoreRun>(workload, way));
+  for (const Workload& workload : workloads) runs.push_back(std::make_unique<CoreRun>(workload, way));
   std::vector<double> wall[STEPS], processor[STEPS];
   for (int round = 0; round < ROUNDS; ++round) {
     Cost before;
@@ -62,7 +62,7 @@ std::vector<Cost> step_costs(const std::vector<sweeps::Workload>& workloads, con
 
 }  // namespace
 
-std::vector<RooflineRow> core_rows(const Peaks& peaks, const std::vector<sweeps::Workload>& workloads,
+std::vector<RooflineRow> core_rows(const Peaks& peaks, const std::vector<Workload>& workloads,
                                    const std::vector<Demand>& demands) {
   const std::vector<double> bytes =
       bytes_of(workloads, sizeof(double), false);  // the core's planes are doubles in either precision

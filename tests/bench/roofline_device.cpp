@@ -31,7 +31,7 @@ std::size_t repeats(const host::DeviceInfo& device, std::size_t bytes_per_grip) 
 // A workload on a device, with a chunk of the sample of a vessel at a time.
 class DeviceRun {
  public:
-  DeviceRun(const Options& options, const sweeps::Workload& workload, Precision precision, bool counting)
+  DeviceRun(const Options& options, const Workload& workload, Precision precision, bool counting)
       : workload_(workload), real_(real_bytes(precision)) {
     on_device_.precision = precision;
     if (counting) on_device_.shaders = lane_shaders();
@@ -117,7 +117,7 @@ class DeviceRun {
     return commands;
   }
 
-  const sweeps::Workload& workload_;
+  const Workload& workload_;
   std::size_t real_;
   host::GripBackendOptions on_device_;
   std::unique_ptr<host::GripProgram> program_;
@@ -140,13 +140,13 @@ const StepKernels STEP_KERNELS[STEPS] = {{GRIPS, {"closure", "rest", "contact", 
 
 const char* device_backend(Precision precision) { return precision == Precision::single ? "vulkan float" : "vulkan double"; }
 
-std::vector<RooflineRow> device_rows(const Options& options, const Peaks& peaks, const std::vector<sweeps::Workload>& workloads,
+std::vector<RooflineRow> device_rows(const Options& options, const Peaks& peaks, const std::vector<Workload>& workloads,
                                      const std::vector<Demand>& demands, Precision precision) {
   std::map<int, std::map<std::string, Cost>> costs;
   std::map<int, std::map<std::string, Lanes>> lanes;
   std::map<int, double> grips;
   for (const int number : {int(GRIPS), int(BODIES), int(RESERVES)}) {
-    const sweeps::Workload& workload = workloads[static_cast<std::size_t>(number)];
+    const Workload& workload = workloads[static_cast<std::size_t>(number)];
     DeviceRun timed(options, workload, precision, false);
     costs[number] = timed.costs();
     grips[number] = static_cast<double>(timed.grips());

@@ -17,15 +17,15 @@ namespace {
 
 constexpr double GOLDEN = 0.6180339887498949;  // whose multiples, modulo 1, spread evenly
 
-sweeps::Workload workload_of(Scene scene, bool with_reserves = false) {
+Workload workload_of(Scene scene, bool with_reserves = false) {
   std::vector<int> kept = sweeps::variable_fields(sweeps::choose_variables(scene));
   if (with_reserves) kept.insert(kept.end(), {FIELD_PUSH, FIELD_FRICTION_NEEDED});  // as [output] also asks for them
-  sweeps::Workload workload{std::move(scene), {}};
+  Workload workload{std::move(scene), {}};
   workload.fields = make_field_set(kept, workload.scene);
   return workload;
 }
 
-OperationCounts counts_of(const sweeps::Workload& workload) {
+OperationCounts counts_of(const Workload& workload) {
   const auto core = core_counted::make_evaluator(workload.scene, {});
   std::vector<double> reals(workload.fields.real_planes * SAMPLE);
   std::vector<std::uint32_t> uints(workload.fields.uint_planes * SAMPLE);
@@ -46,7 +46,7 @@ const char* step_name(int step) {
   return NAMES[step];
 }
 
-std::vector<sweeps::Workload> roofline_workloads() {
+std::vector<Workload> roofline_workloads() {
   const Scene whole = read_scene_file(find_scene(DEFAULT_SCENE));
   if (!whole.strength || !whole.table || whole.hand.between == 0 || whole.tilts.empty())
     throw failure_error("the default scene has no [strength], no [table], no tilts or no spheres between the joints");
@@ -61,7 +61,7 @@ std::vector<sweeps::Workload> roofline_workloads() {
   return {workload_of(grips), workload_of(bodies), workload_of(forces), workload_of(whole), workload_of(whole, true)};
 }
 
-std::vector<GripInput> sample_of(const sweeps::Workload& workload, std::size_t vessel) {
+std::vector<GripInput> sample_of(const Workload& workload, std::size_t vessel) {
   const sweeps::Plan plan(workload.scene, false);
   const double blocks = std::floor(static_cast<double>(plan.grips()) / GROUP_SIZE);
   std::vector<GripInput> grips;
@@ -84,7 +84,7 @@ Demand operator+(const Demand& a, const Demand& b) {
           a.roots + b.roots,         a.transcendentals + b.transcendentals, a.comparisons + b.comparisons};
 }
 
-std::vector<Demand> demands(const std::vector<sweeps::Workload>& workloads) {
+std::vector<Demand> demands(const std::vector<Workload>& workloads) {
   std::vector<Demand> found;
   OperationCounts before;
   for (int step = 0; step < STEPS; ++step) {
@@ -99,7 +99,7 @@ std::vector<Demand> demands(const std::vector<sweeps::Workload>& workloads) {
 namespace {
 
 // Planes that a workload computes and the one before it does not; of all of them where `before` is null.
-std::size_t new_planes(const sweeps::Workload& workload, const sweeps::Workload* before) {
+std::size_t new_planes(const Workload& workload, const Workload* before) {
   std::size_t planes = 0;
   for (const Field& field : real_fields())
     if (workload.fields.has(field.number) && !(before && before->fields.has(field.number)))
@@ -111,13 +111,13 @@ std::size_t new_planes(const sweeps::Workload& workload, const sweeps::Workload*
 
 // Every plane is written once, by its step. On a device forces read two angles of the grip, its midpoint and its status; each task of the
 // efforts reads these two angles, status and the contacts, and those of the reserves also the worst state.
-std::vector<double> bytes_of(const std::vector<sweeps::Workload>& workloads, std::size_t real, bool on_device) {
+std::vector<double> bytes_of(const std::vector<Workload>& workloads, std::size_t real, bool on_device) {
   constexpr std::size_t WORD = sizeof(std::uint32_t);
   const std::size_t contacts = CONTACT_STRIDE * JOINTS * real;
   const std::size_t task = contacts + 2 * real + WORD;
   std::vector<double> bytes;
   for (int step = 0; step < STEPS; ++step) {
-    const sweeps::Workload& workload = workloads[static_cast<std::size_t>(step)];
+    const Workload& workload = workloads[static_cast<std::size_t>(step)];
     const bool is_grip = replaces(step);
     std::size_t moved = new_planes(workload, is_grip ? nullptr : &workload - 1) * real;
     if (is_grip) moved += GRIP_AXES * real + workload.fields.uint_planes * WORD;
