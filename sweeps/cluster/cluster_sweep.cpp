@@ -844,7 +844,7 @@ class ClusterSweep {
   }
 
   void note_as_rank(std::vector<std::string> notes) {
-    for (std::string& line : notes) line = sweep_.who() + line;
+    for (std::string& line : notes) line = sweep_.rank_prefix() + line;
     state_.note_once(notes, progress_ ? &*progress_ : nullptr);
   }
 

@@ -29,12 +29,13 @@
 
 namespace wholehand::sweeps {
 
-Sweep::Sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts, std::string who)
+Sweep::Sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts,
+             std::string rank_prefix)
     : scene_(scene),
       options_(options),
       choice_(choice),
       parts_(parts),
-      who_(std::move(who)),
+      rank_prefix_(std::move(rank_prefix)),
       names_(output_names(options.output.empty() ? default_output(scene) : options.output)),
       best_wanted_(static_cast<std::size_t>(std::max(0, options.best.value_or(scene.output.best)))),
       by_(read_rank_by(options.rank_by, scene)),
@@ -187,7 +188,7 @@ void Sweep::check_delivered(const RunResult& result, std::uint64_t delivered, bo
 bool Sweep::repair_stretch(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) const {
   if (is_asked_to_end(interrupt)) return false;
   if (file.holds(v, stretch)) return true;
-  note(fmt::format("{}{}: {} are damaged: computing them again", who_, file.path(), readable_stretch(stretch, v)));
+  note(fmt::format("{}{}: {} are damaged: computing them again", rank_prefix_, file.path(), readable_stretch(stretch, v)));
   return restore_stretch(v, stretch, file, interrupt);
 }
 

@@ -24,9 +24,9 @@ namespace wholehand::sweeps {
 
 class Sweep {
  public:
-  // Scene, options and parts must outlive the object. `who` begins the notes about this process's own work, if others work on the same sweep.
+  // Scene, options and parts must outlive the object. `rank_prefix` begins the notes about this process's own work, if others work on the same sweep.
   Sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts,
-        std::string who = "");
+        std::string rank_prefix = "");
   Sweep(const Sweep&) = delete;
   Sweep& operator=(const Sweep&) = delete;
 
@@ -50,7 +50,7 @@ class Sweep {
   void note(const std::string& line) const;
   void print_text(const std::string& text) const;
   bool is_quiet() const { return static_cast<bool>(options_.hooks.note); }
-  const std::string& who() const { return who_; }
+  const std::string& rank_prefix() const { return rank_prefix_; }
 
   // ---- what is asked for ----
 
@@ -109,7 +109,7 @@ class Sweep {
   const SweepOptions& options_;
   BackendChoice choice_;
   const SweepParts& parts_;
-  std::string who_;
+  std::string rank_prefix_;
   OutputNames names_;
   std::size_t best_wanted_;
   RankBy by_;
