@@ -11,6 +11,7 @@
 #include <regex>
 
 #include "core/evaluator.h"
+#include "core/gather.h"
 #include "core/reader/reader.h"
 #include "core/reader/shipped.h"
 #include "host/grip_program.h"
