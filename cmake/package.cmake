@@ -56,7 +56,9 @@ wholehand_package(common wholehand-common science ""
   "whole-hand grasping with a two-finger gripper - scenes" ${what_it_is} "" "This package has the scenes that the program and the libraries know by name.")
 set(CPACK_DEBIAN_COMMON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_COMMON_PACKAGE_SHLIBDEPS OFF)
+set(development_depends "")
 if(TARGET wholehand_library)
+  set(development_depends "libwholehand${WHOLEHAND_ABI} ${same_version}")
   wholehand_package(library libwholehand${WHOLEHAND_ABI} libs
     "wholehand-common ${same_version}, libvulkan1"
     "whole-hand grasping with a two-finger gripper - C library" ${what_it_is} "" "This package has the shared library with its C interface.")
@@ -65,12 +67,12 @@ if(TARGET wholehand_library)
   # The trigger runs ldconfig. CPack would write scripts that do it too, unless scripts are named here; those that are not there it leaves out.
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/package/triggers" "${packaging_dir}/shlibs" /nonexistent/postinst
     /nonexistent/postrm)
-  wholehand_package(development libwholehand-dev libdevel
-    "libwholehand${WHOLEHAND_ABI} ${same_version}"
-    "whole-hand grasping with a two-finger gripper - for C and C++ programs" ${what_it_is} "" "This package has headers and static libraries," "and files for CMake and pkg-config.")
-  # what the C library alone does not need
-  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libassimp-dev, libembree-dev, libfmt-dev, libglm-dev, libhdf5-dev, libnetcdf-dev, libqhull-dev, libtinygltf-dev, libtomlplusplus-dev, libvulkan-dev, libxxhash-dev, nlohmann-json3-dev")
 endif()
+wholehand_package(development libwholehand-dev libdevel
+  "${development_depends}"
+  "whole-hand grasping with a two-finger gripper - for C and C++ programs" ${what_it_is} "" "This package has headers and static libraries," "and files for CMake and pkg-config.")
+# what the C library alone does not need
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libassimp-dev, libembree-dev, libfmt-dev, libglm-dev, libhdf5-dev, libnetcdf-dev, libqhull-dev, libtinygltf-dev, libtomlplusplus-dev, libvulkan-dev, libxxhash-dev, nlohmann-json3-dev")
 if(TARGET wholehand_python)
   wholehand_package(python python3-wholehand python
     "wholehand-common ${same_version}, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-xarray, python3-netcdf4, libvulkan1"

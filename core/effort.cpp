@@ -428,7 +428,8 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
   if (now.is_beyond) return answer;
   has_basis_ = false;
   if (is_warm || !(is_certain || is_last_try)) {
-    // a basis of another load may end in a corner; only a search from the start proves that nothing holds
+    // A basis of another load may end in a corner; only a search from the start proves that nothing holds. A wider tolerance ends a search that
+    // rounding keeps from ending.
     Effort other = is_warm ? search(load, tolerance, enough, too_much, EFFORT_PIVOTS)
                            : search(load, WIDER * tolerance, enough, too_much, most_pivots - answer.pivots);
     other.pivots += answer.pivots;

@@ -55,6 +55,7 @@ ExitCode report_recording(const SessionArguments& arguments) {
   return ExitCode::done;
 }
 
+#ifdef HAS_EVIDENCE
 ExitCode report_or_study(const SessionArguments& arguments) {
   if (!arguments.study) {
     if (arguments.recordings.size() > 1)
@@ -63,14 +64,16 @@ ExitCode report_or_study(const SessionArguments& arguments) {
     return report_recording(arguments);
   }
   if (arguments.json) throw usage_error("--json: goes without --study; study.csv and study.nc of -o have the numbers");
-#ifdef HAS_EVIDENCE
   RecordedPeople people{arguments.recordings, arguments.folder};
   if (!arguments.seed.empty()) people.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
   return study_recordings(people);
-#else
-  throw usage_error("--study: this program is built without evidence (WHOLEHAND_EVIDENCE)");
-#endif
 }
+#else
+ExitCode report_or_study(const SessionArguments& arguments) {
+  if (arguments.recordings.size() > 1) throw usage_error("session: more than one recording; this program reads one at a time");
+  return report_recording(arguments);
+}
+#endif
 
 }  // namespace
 
@@ -89,11 +92,13 @@ void add_session_command(CLI::App& app, Action& action) {
       ->type_name("DIR")
       ->check(not_empty());
   command->add_flag("--json", arguments->json, "Print one JSON object in one line");
+#ifdef HAS_EVIDENCE
   command->add_flag("--study", arguments->study, "Compute the paper's statistics over all recordings, and compare with the paper");
   command->add_option("--seed", arguments->seed, "Seed of the intervals of --study (default: 1)")
       ->type_name("S")
       ->check(not_empty())
       ->check(not_an_option());
+#endif
   command->callback([arguments, &action] { action = [arguments] { return report_or_study(*arguments); }; });
 }
 

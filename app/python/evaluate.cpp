@@ -178,7 +178,7 @@ std::string resolved_backend(const SceneHandle& handle, std::uint64_t grips,
   }
   const Scene& scene = handle.described();
   sweeps::Workload work = sweeps::workload_of(
-      scene, variables ? sweeps::named_variables(scene, *variables, "variables") : sweeps::choose_variables(scene), grips);
+      scene, variables ? named_variables(scene, *variables, "variables") : sweeps::choose_variables(scene), grips);
   work.is_robust = false;  // there are no lists
   if (!sweeps::pays_for_device(work, threads) || is_forked_from_device()) return "core";
   prepare_vulkan_environment(on);

@@ -54,7 +54,7 @@ py::tuple sweep(const SceneHandle& handle, const std::string& output, const std:
     const py::gil_scoped_release other_threads;
     Scene scene = handle.described();
     if (spec.keep) {
-      sweeps::named_variables(scene, *spec.keep, "keep");
+      named_variables(scene, *spec.keep, "keep");
       scene.output.keep = spec.keep;
       scene.output.keep_place = "keep";
     }

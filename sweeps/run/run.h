@@ -11,7 +11,7 @@ namespace wholehand::sweeps {
 // and counts of every vessel, and the times to stdout, notes and progress to stderr. Returns `done`, or `interrupted` after SIGINT or SIGTERM
 // with NAME.nc.partial left for --resume. Throws Error.
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options);
-// The same with other parts, for a scene whose meshes are read: where the choice says, or else the options.
+// The same with other parts, where the choice says, or else the options. Meshes are read, or SweepParts::prepare reads them.
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const BackendChoice& choice, const SweepParts& parts);
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts);
 

@@ -17,7 +17,7 @@
 
 namespace wholehand::sweeps {
 
-// How a test, or another program that the sweep is part of, takes part.
+// How the caller takes part.
 struct SweepHooks {
   // Called once meshes are read: tells the user about the scene in that precision. May be empty.
   std::function<void(const Scene&, Precision)> warn = {};
@@ -32,7 +32,7 @@ struct SweepTuning {
   // Scores of one vessel's grips that are kept for further passes, 8 B each; with more grips each pass evaluates all of them again.
   std::size_t cached_scores = std::size_t{1} << 22;
   double mark_seconds = 5;   // least time between two progress marks: the most that a crash may cost
-  double piece_seconds = 2;  // least number of grips that a rank of a cluster takes at a time
+  double piece_seconds = 2;  // least duration of the piece of work that a rank of a cluster takes
 };
 
 // What the user asks for.

@@ -120,7 +120,7 @@ struct FingerRest {
   double left_at = 0;  // closure at which it left the trajectory
 };
 
-// Of PIP, DIP and tip.
+// The separations of PIP, DIP and tip.
 inline core_f64::Vec3 watched_separations(const Evaluator& evaluator, const Placed& finger, const core_f64::Vec3& angles) {
   const auto points = watched_points(finger, angles);
   core_f64::Vec3 result{};

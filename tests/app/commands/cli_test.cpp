@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The built program: help, usage errors and exit codes. What the commands compute is tested elsewhere.
-// sanitizers: none (it runs the program, for its words)
+// sanitizers: address
 #include <gtest/gtest.h>
 
 #include <algorithm>
