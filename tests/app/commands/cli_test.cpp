@@ -23,7 +23,7 @@ using wholehand::Outcome;
 using wholehand::run;
 using wholehand::SMALL_GRIP;
 
-TEST(CommandLine, TellsVersionAndHelp) {
+TEST(CommandUsage, TellsVersionAndHelp) {
   const Outcome version = run("PROGRAM --version 2>&1");
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.output, std::string("wholehand ") + wholehand::version() +
@@ -36,7 +36,7 @@ TEST(CommandLine, TellsVersionAndHelp) {
   }
 }
 
-TEST(CommandLine, HelpIsTheSameAsACommand) {
+TEST(CommandUsage, HelpIsTheSameAsACommand) {
   for (const auto& [as_command, as_option] : std::vector<std::pair<std::string, std::string>>{
            {"help", "--help"}, {"help sweep", "sweep --help"}, {"help stability wall", "stability wall --help"}}) {
     const Outcome help = run("PROGRAM " + as_command + " 2>&1");
@@ -45,7 +45,7 @@ TEST(CommandLine, HelpIsTheSameAsACommand) {
   }
 }
 
-TEST(CommandLine, ListsTheShippedScenes) {
+TEST(CommandUsage, ListsTheShippedScenes) {
   const Outcome scenes = run("PROGRAM scenes 2>&1");
   EXPECT_EQ(scenes.code, 0);
   EXPECT_NE(
@@ -60,7 +60,7 @@ void expect_refusals(const std::vector<std::pair<std::string, std::string>>& ref
   for (const auto& [arguments, gist] : refusals) expect_error(arguments, 2, gist);
 }
 
-TEST(CommandLine, RefusesWrongCommandsAndSweeps) {
+TEST(CommandUsage, RefusesWrongCommandsAndSweeps) {
   expect_refusals({
       {"", "the command is missing; allowed: sweep, merge, rank, compare, report, grip, trials, study, check, "},
       {"", ", scenes or help; see wholehand --help"},
@@ -101,7 +101,7 @@ TEST(CommandLine, RefusesWrongCommandsAndSweeps) {
   });
 }
 
-TEST(CommandLine, RefusesWrongWallsAndFiles) {
+TEST(CommandUsage, RefusesWrongWallsAndFiles) {
   expect_refusals({
       {"stability", "stability"},
       {"stability wall --damping-Nspm 1 --rate-hz 1000", "--mass-kg is required"},
@@ -129,7 +129,7 @@ TEST(CommandLine, RefusesWrongWallsAndFiles) {
   });
 }
 
-TEST(CommandLine, RefusesWrongTrials) {
+TEST(CommandUsage, RefusesWrongTrials) {
   expect_refusals({
       {"trials", "scene is required"},
       {"trials small", "--output is required"},
@@ -150,7 +150,7 @@ TEST(CommandLine, RefusesWrongTrials) {
   });
 }
 
-TEST(CommandLine, RefusesWrongGrips) {
+TEST(CommandUsage, RefusesWrongGrips) {
   expect_refusals({
       {"grip", "scene is required"},
       {"grip small", "--vessel is required"},
@@ -178,7 +178,7 @@ TEST(CommandLine, RefusesWrongGrips) {
   });
 }
 
-TEST(CommandLine, RefusesWrongPictures) {
+TEST(CommandUsage, RefusesWrongPictures) {
   expect_refusals({
       {std::string(SMALL_GRIP) + " --glb", "--glb"},
       {std::string(SMALL_GRIP) + " --glb ''", "must not be empty"},
@@ -197,7 +197,7 @@ TEST(CommandLine, RefusesWrongPictures) {
   });
 }
 
-TEST(CommandLine, NamesFileLineAndColumn) {
+TEST(CommandUsage, NamesFileLineAndColumn) {
   const wholehand::TemporaryFolder folder;
   const std::string scene = folder / "a.toml";
   std::ofstream(scene) << "[scene]\npose = \"papr\"\n";
@@ -223,7 +223,7 @@ TEST(CommandLine, NamesFileLineAndColumn) {
 }
 
 // The grippers below the Vulkan devices, with the stand-in for Force Dimension's SDK.
-TEST(CommandLine, ListsDevicesAndGrippers) {
+TEST(CommandUsage, ListsDevicesAndGrippers) {
   const wholehand::TemporaryFolder temporary;
   const std::string& folder = temporary.path();
   const std::string program = "WHOLEHAND_LOCK_DIR=" + folder + " WHOLEHAND_DHD_LIBRARY=" STAND_IN_DHD " PROGRAM devices 2>&1 ";
@@ -256,7 +256,7 @@ TEST(CommandLine, ListsDevicesAndGrippers) {
 }
 
 // No driver, as on a machine that has none: an error where a device was asked for, and the core where that is left to the program.
-TEST(CommandLine, SaysWhenThereIsNoVulkan) {
+TEST(CommandUsage, SaysWhenThereIsNoVulkan) {
   const wholehand::TemporaryFolder folder;
   const std::string result = folder / "a.nc";
   for (const std::string& arguments : {"sweep small --on vulkan -o " + result, std::string("check small")}) {

@@ -256,7 +256,7 @@ TEST(MeshLattice, TellsHowFarItIs) {
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
   const MeshDistance distance(mesh);
   LatticeSpec spec;
-  spec.tolerance = 1e-3;  // many rows, of which this thread takes some beside two others
+  spec.tolerance = 1e-3;  // many rows
   const auto here = std::this_thread::get_id();
   for (const int threads : {1, 3}) {
     spec.threads = threads;
@@ -265,7 +265,7 @@ TEST(MeshLattice, TellsHowFarItIs) {
       EXPECT_EQ(std::this_thread::get_id(), here);
       shares.push_back(share);
     });
-    ASSERT_GT(shares.size(), 3u);
+    ASSERT_GT(shares.size(), threads == 1 ? 3u : 1u);  // on a busy machine the other threads may take every row
     EXPECT_EQ(shares.front(), 0);
     EXPECT_EQ(shares.back(), 1);
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
