@@ -62,8 +62,7 @@ std::vector<Cost> step_costs(const std::vector<Workload>& workloads, const CoreW
 
 }  // namespace
 
-std::vector<RooflineRow> core_rows(const Peaks& peaks, const std::vector<Workload>& workloads,
-                                   const std::vector<Demand>& demands) {
+std::vector<RooflineRow> core_rows(const Peaks& peaks, const std::vector<Workload>& workloads, const std::vector<Demand>& demands) {
   const std::vector<double> bytes =
       bytes_of(workloads, sizeof(double), false);  // the core's planes are doubles in either precision
   const double grips = static_cast<double>(SAMPLE * workloads[0].scene.vessels.size());
