@@ -135,7 +135,7 @@ TEST(Whole, InterruptedAndKilledSweepOnVulkanResumesToTheSameBits) {
   // some seconds of work; lists of different grips, which take further passes, are interrupted in run_different_test
   std::ofstream(scene)
       << "[[vessel]]\nname = \"v\"\nshape = \"flask\"\ndiameter_mm = 85\nneck_mm = 34\nheight_mm = 140\nwall_mm = 1.5\n"
-         "[grips]\nsampling = \"sobol\"\ncount = 2500000\nseed = 7\nheight_fraction = { from = 0.1, to = 0.9 }\n"
+         "[grips]\nsampling = \"sobol\"\ncount = 800000\nseed = 7\nheight_fraction = { from = 0.1, to = 0.9 }\n"
          "roll_deg = { from = -90, to = 30 }\n[output]\napart_mm = 0\nkeep = [\"score\", \"touch_mask\", \"gap\"]\n";
   ASSERT_EQ(run("sweep " + scene + " --on vulkan -o " + whole + " >" + folder.path() + "/out.txt"), 0);
 
