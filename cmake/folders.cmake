@@ -93,7 +93,7 @@ endfunction()
 #
 # makes a library of FOLDER/*.cpp without the EXCEPT files (paths from the folder, may be patterns). Its name is the folder's with _ for /. USES
 # and LINKS are what its includers need too. The rest is for speed (cmake/build_speed.cmake): QUICK is less optimized (-O1), EXACT is compiled as
-# the kernels are (core_options), and HEADERS are precompiled. Eight files are compiled as one. What is left out is passed over.
+# the kernels are (core_options), and HEADERS are precompiled. Eight files are compiled as one. A folder that is left out makes no library.
 function(wholehand_folder path)
   if(path IN_LIST WHOLEHAND_LEFT_OUT)
     return()

@@ -378,7 +378,7 @@ void EffortSolver::narrow(Search& now) {
   }
 }
 
-// Answers with the effort of the basis if its forces balance the load, and returns whether they do. `is_certain`: no force resists the load.
+// Takes the effort of the basis as the answer if its forces balance the load, and returns whether they do. `is_certain`: no force resists the load.
 bool EffortSolver::answer_with_basis(Search& now, bool& is_certain) {
   if (!invert()) return false;
   last_ = levels(now.wanted);

@@ -40,7 +40,7 @@ Vec3 separations_of(const Vessel& vessel, const FingerPoints& points, const Plac
               separation_at(vessel, points.tip, finger.radius[4]));
 }
 
-// From joint `first` on.
+// Sets PIP, DIP and tip of a finger, whose joints begin at `first`.
 void put_points(const FingerPoints& points, int first, GripAnswer& answer) {
   answer.posed[first] = points.pip;
   answer.posed[first + 1] = points.dip;

@@ -13,7 +13,8 @@
 
 namespace wholehand::host {
 
-// Of a load: mass, the liquid's share of it, lean and height of the liquid's center of mass, both times the share.
+// LOAD_STRIDE numbers describe a load: its mass, the liquid's share of the mass, and that share times the lean and the height of the liquid's
+// center of mass.
 constexpr int LOAD_STRIDE = 4;
 
 struct VesselArrays {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --view of the command grip; in a build with the viewer.
+// What `wholehand grip --view` shows. A build without the viewer has no view_grip.
 #pragma once
 
 #include <cstddef>

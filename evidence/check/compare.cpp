@@ -385,7 +385,7 @@ bool Comparer::differs_by_gate(const GatheredPlanes& a, const GatheredPlanes& b,
          figure_difference(of_a, of_b) <= tolerance(FIELD_WORST_EFFORT, 0, i);
 }
 
-// Answers by grip: whether its numbers are left out.
+// Returns for each grip whether its numbers are left out.
 std::vector<char> Comparer::add_outcomes(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b,
                                          const GatheredPlanes& truth, const Spread& spread, const Tolerance& tolerance) {
   std::vector<char> left_out(truth.count, 0);

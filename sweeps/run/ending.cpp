@@ -87,7 +87,7 @@ class Ending {
     return files;
   }
 
-  // Answers their files.
+  // Returns their files.
   std::vector<std::string> draw_maps() {
     if (!sweep_.has_heat_map()) {
       sweep_.note("no heat maps: the score is not kept ([output] keep)");

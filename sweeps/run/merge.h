@@ -17,7 +17,7 @@ struct MergeRequest {
 // Copies the grips of all shards into NAME.nc.partial, comparing each stretch with the checksum that the sweep's mark has of it, and those of the
 // partial file itself too; then renames it. Memory does not grow with the files. The shards stay as they are. Prints what it did.
 //
-// Answers `interrupted` after a signal; the same call begins again. Throws Error: (usage) NAME.nc is no sweep with shards, one is missing, or another
+// Returns `interrupted` after a signal; the same call begins again. Throws Error: (usage) NAME.nc is no sweep with shards, one is missing, or another
 // process writes it; (failure) the sweep did not end, a shard is damaged, or the disk is full. NAME.nc.partial and the mark then stay.
 ExitCode merge_shards(const MergeRequest& request);
 

@@ -32,8 +32,6 @@ namespace {
 constexpr double MARK_SHARE = 0.02;           // of the time, at most, for marks
 constexpr std::uint64_t MOST_STRETCHES = 64;  // of a vessel's grips with a checksum each, and one more for each --resume
 
-double since(double start) { return monotonic_now() - start; }
-
 // The passes of one process over the grips of a sweep.
 class Passes {
  public:
@@ -79,13 +77,13 @@ class Passes {
 
  private:
   ProgressSink sink() const { return sweep_.is_quiet() ? ProgressSink::none : progress_sink(ProgressSink::none); }
-  bool is_mark_due() const { return since(last_mark_) >= mark_interval_; }
+  bool is_mark_due() const { return monotonic_now() - last_mark_ >= mark_interval_; }
 
   void save() {
     const double start = monotonic_now();
     state_.save(file_);
     last_mark_ = monotonic_now();
-    mark_interval_ = std::max(sweep_.options().tuning.mark_seconds, since(start) / MARK_SHARE);
+    mark_interval_ = std::max(sweep_.options().tuning.mark_seconds, (last_mark_ - start) / MARK_SHARE);
   }
 
   // Grips of a vessel until its end, an interrupt, or the time for a progress mark.

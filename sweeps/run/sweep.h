@@ -37,8 +37,8 @@ class Sweep {
   ExitCode report_already_complete() const;
   // Refuses what it can before any work, with meshes unread.
   void check() const;
-  // Handles meshes and devices; what follows this step below exists only then. If the core takes a device's place, in another precision, checks the
-  // disk space again.
+  // Reads the meshes and opens the devices. What is declared below under "what has been opened" exists only afterwards. Checks the disk space again if
+  // the core takes a device's place in another precision.
   void open();
   // For a sweep on several devices: the result names all, and a mark only their kinds.
   void name_devices(const std::string& devices, const std::string& kinds, const std::string& drivers);
@@ -116,7 +116,7 @@ class Sweep {
   std::vector<const Variable*> variables_;
   std::optional<Plan> plan_;
   std::unique_ptr<Backend> backend_;
-  BackendInfo info_, identified_;  // of the result, and of a mark
+  BackendInfo info_, identified_;  // what the result names, and what a mark names
   std::unique_ptr<Evaluator> evaluator_;
   std::vector<VesselFacts> facts_;
 };

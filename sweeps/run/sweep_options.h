@@ -69,7 +69,7 @@ struct BackendChoice {
 struct SweepParts {
   std::function<std::unique_ptr<Backend>(const BackendChoice&, const FieldSet&)> open_backend;
   std::function<std::unique_ptr<Evaluator>()> open_evaluator;  // for vessel facts that no grip changes
-  // Slow work after all checks that can be made at once (meshes); may be empty. Answers where the sweep goes on, as with_core_fallback does.
+  // Slow work after all checks that can be made at once (meshes); may be empty. Returns where the sweep goes on, as with_core_fallback does.
   std::function<BackendChoice(const BackendChoice&)> prepare = {};
   // Opens the core for the sweep's scene, or for one that differs from it only in its friction. It evaluates listed grips and their deviations, so
   // that lists are the same on every device.

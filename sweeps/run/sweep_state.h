@@ -24,7 +24,7 @@ class SweepState {
   // The sweep must outlive the object.
   explicit SweepState(const Sweep& sweep) : sweep_(sweep) {}
 
-  // Once the sweep is open. Starts from the mark of an earlier sweep to resume, if there is one, else nothing is done. True: resumed.
+  // Call it once the sweep is open. Resumes from the mark of an earlier sweep if the user asks for it and there is one. Returns whether it does.
   bool begin();
   SweepMark& mark() { return mark_; }
   const SweepMark& mark() const { return mark_; }
@@ -42,7 +42,7 @@ class SweepState {
   void run_and_save_on_failure(ResultFile& file, const std::function<void()>& ending);
   ExitCode interrupted() const;
 
-  // Has the backend do it, and counts the seconds in kernels and in the backend without its time in the sink.
+  // Runs the request on the backend. Counts the seconds in kernels, and those in the backend outside of the sink.
   RunResult run(RunRequest request);
   double wall_seconds() const;     // of all sessions
   double awaited_kernels() const;  // s in kernels; those that ran while the file was being written cost no time of their own
