@@ -18,7 +18,7 @@
 namespace wholehand {
 namespace {
 
-constexpr IntegerRange OMEGA_NUMBER{0, 31};
+constexpr IntegerRange OMEGA_NUMBER{0, device::LARGEST_OMEGA_SERIAL};
 constexpr int ANY_PORT = 0;  // that is free
 #ifdef HAS_VIEWER
 constexpr const char* NO_VIEW = "add --view";

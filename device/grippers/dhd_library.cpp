@@ -112,6 +112,7 @@ DhdLibrary load_dhd_library(const std::string& path, const std::vector<std::stri
   need_symbol(loaded, "dhdGetTime", dhd.get_time);
   need_symbol(loaded, "dhdErrorGetLastStr", dhd.error_get_last_str);
   find_symbol(loaded, "dhdGetButtonMask", dhd.get_button_mask);
+  find_symbol(loaded, "dhdGetSerialNumber", dhd.get_serial_number);
   return dhd;
 }
 

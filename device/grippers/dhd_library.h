@@ -34,7 +34,9 @@ struct DhdLibrary {
   double (*get_time)();                                  // s
   const char* (*error_get_last_str)();
 
-  unsigned int (*get_button_mask)(char id) = nullptr;  // null if this release of the SDK has none
+  // null if this release of the SDK has none
+  unsigned int (*get_button_mask)(char id) = nullptr;
+  int (*get_serial_number)(unsigned short* serial, char id) = nullptr;
 };
 
 // The SDK's file names, in search order, if no path is given. libdrd contains all of libdhd.

@@ -119,17 +119,46 @@ int check_number(const DhdLibrary& dhd, int number) {
   throw failure_error(fmt::format("omega: there is no device {}; Force Dimension's SDK counts {}, from 0", number, count));
 }
 
+// -1: the device or this release of the SDK has none.
+int serial_of(const DhdLibrary& dhd, char id) {
+  unsigned short serial = 0;
+  return dhd.get_serial_number && dhd.get_serial_number(&serial, id) >= 0 ? serial : -1;
+}
+
 std::string lock_name(int number) { return fmt::format("omega-{}", number); }
 
 bool is_finite(const Triple& vector) { return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]); }
 
+// Opens each device that is free, and closes it again.
+int number_of_serial(const DhdLibrary& dhd, int serial) {
+  if (!dhd.get_serial_number)
+    throw failure_error(fmt::format("omega: {} has no dhdGetSerialNumber; name a device by its number", dhd.path));
+  const int count = count_devices(dhd);
+  std::string others;
+  for (int number = 0; number < count; ++number) {
+    try {
+      const SessionLock lock(lock_name(number));
+      const Connection connection(dhd, number);
+      const int found = serial_of(dhd, connection.id());
+      if (found == serial) return number;
+      others += found < 0 ? fmt::format("; device {} gives none", number) : fmt::format("; device {} has {}", number, found);
+    } catch (const Error& error) {
+      others += fmt::format("; device {}: {}", number, error.what());
+    }
+  }
+  throw failure_error(fmt::format("omega: no free device has the serial number {}{}", serial, others));
+}
+
 class OmegaGripper final : public Gripper {
  public:
-  OmegaGripper(const DhdLibrary& dhd, double watchdog, int number)
+  // `serial` is that of the device, or -1 for any: numbers change as devices come and go.
+  OmegaGripper(const DhdLibrary& dhd, double watchdog, int number, int serial)
       : dhd_(dhd), lock_(lock_name(check_number(dhd_, number))), connection_(dhd_, number), id_(connection_.id()) {
     const Model& model = model_of(dhd_, id_);
     limits_.name = system_name(dhd_, id_);
-    limits_.address = address_of(number);
+    limits_.address = address_of(serial < 0 ? number : serial);
+    if (serial >= 0 && serial_of(dhd_, id_) != serial)
+      throw failure_error(limits_.address + ": the devices changed while they were searched; start again");
     limits_.force = model.force;
     limits_.grip = model.grip;
     limits_.gap = GAP;
@@ -282,6 +311,8 @@ GripperFound describe(const DhdLibrary& dhd, int number) {
     dhd.get_sdk_version(&major, &minor, &release, &revision);
     found.address = address_of(number);
     found.name += fmt::format(", {}", hand_name(model));
+    if (const int serial = serial_of(dhd, connection.id()); serial >= OMEGA_DEVICES)
+      found.name += fmt::format(", serial {}", serial);
     found.summary = fmt::format("up to {:g} N, gripper {:g} N, gap {:g} to {:g} mm, up to 4,000 Hz; SDK {}.{}.{} ({})", model.force,
                                 model.grip, GAP[0] * 1e3, GAP[1] * 1e3, major, minor, release, dhd.path);
   } catch (const Error& error) {
@@ -293,10 +324,12 @@ GripperFound describe(const DhdLibrary& dhd, int number) {
 
 }  // namespace
 
-std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_s, int number) {
+std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_s, int which) {
   if (!(watchdog_s > 0)) throw usage_error("omega: the watchdog must be longer than 0 s");
   const ExitGuard exits(PLACE);
-  return std::make_unique<OmegaGripper>(load_dhd_library(library), watchdog_s, number);
+  const DhdLibrary dhd = load_dhd_library(library);
+  if (which < OMEGA_DEVICES) return std::make_unique<OmegaGripper>(dhd, watchdog_s, which, -1);
+  return std::make_unique<OmegaGripper>(dhd, watchdog_s, number_of_serial(dhd, which), which);
 }
 
 std::vector<GripperFound> find_omega_grippers(const std::string& library) {

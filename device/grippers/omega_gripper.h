@@ -20,7 +20,11 @@ Triple to_dhd(const Triple& vector);
 // columns.
 Rotation rotation_from_dhd(const double frame[3][3]);
 
-// Opens device `number` of those that the SDK counts (0: the first; address "omega" or "omega:NUMBER"). `library`: path of the SDK, or
+// Numbers of an address below OMEGA_DEVICES are those of the SDK; others are serial numbers.
+constexpr int OMEGA_DEVICES = 32, LARGEST_OMEGA_SERIAL = 65535;
+
+// Opens device `which` of those that the SDK counts (0: the first; below OMEGA_DEVICES), or the one with this serial number (from OMEGA_DEVICES on).
+// The search for a serial number opens each device briefly that no other session has. The address is "omega" or "omega:WHICH". `library`: path of the SDK, or
 // empty (see load_dhd_library). `watchdog_s`: without a new force for that long the device drops all force, whatever has become of this
 // program; in steps of 125 us, 31.875 ms at most, and stderr reports a longer one.
 //
@@ -35,7 +39,7 @@ Rotation rotation_from_dhd(const double frame[3][3]);
 //
 // Throws Error (usage: a watchdog that is no positive time; failure: no SDK, no such device, another session has it, another model, or
 // a device that takes no watchdog or not these maximum forces).
-std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_s, int number = 0);
+std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_s, int which = 0);
 
 // Every device that the SDK counts, opened briefly. Without SDK or device: one entry that says so. Does not throw.
 std::vector<GripperFound> find_omega_grippers(const std::string& library);

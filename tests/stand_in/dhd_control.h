@@ -22,6 +22,7 @@ struct StandInDhd {
   std::map<std::string, int> codes;   // what a function returns, by its name; 0 where there is none
   std::string error = "no error";     // dhdErrorGetLastStr
   unsigned int buttons = 0;
+  std::vector<unsigned short> serials{4001, 4002};       // of the first devices; others have none
   std::map<std::string, std::function<void()>> hooks{};  // called first by the function of that name, on the caller's thread
   std::function<void(const std::array<double, 7>&)> on_force{};  // called last where a force is set
 

@@ -88,6 +88,13 @@ int dhdGetSystemType(char id) {
   return device < types.size() ? types[device] : -1;
 }
 
+int dhdGetSerialNumber(unsigned short* serial, char id) {
+  const auto device = static_cast<std::size_t>(id);
+  if (device >= control().serials.size()) return -1;
+  *serial = control().serials[device];
+  return code("dhdGetSerialNumber");
+}
+
 int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double frame[3][3], char) {
   hook("dhdGetPositionAndOrientationFrame");
   ++control().reads;

@@ -50,7 +50,7 @@ TEST(OpenGripper, RefusesOtherNames) {
                            "usb:",
                            "omega:",
                            "omega:x",
-                           "omega:99",
+                           "omega:65536",
                            "replay",
                            "osc",
                            "osc:",

@@ -79,6 +79,38 @@ TEST_F(OmegaGripperTest, OpensTheDeviceOfThatNumber) {
   EXPECT_EQ(sdk->opened, (std::vector<int>{0, 1}));
 }
 
+TEST_F(OmegaGripperTest, OpensTheDeviceOfThatSerialNumber) {
+  sdk->types = {OMEGA_RIGHT, SIGMA_LEFT, OMEGA_RIGHT};
+  const auto second = open_omega(STAND_IN_DHD, OMEGA_WATCHDOG, 4002);
+  EXPECT_EQ(second->limits().address, "omega:4002");
+  EXPECT_TRUE(second->limits().is_left_handed);
+  EXPECT_EQ(sdk->opened, (std::vector<int>{0, 1, 1}));
+  EXPECT_EQ(sdk->closed, (std::vector<int>{0, 1})) << "opened briefly, for their serial numbers";
+  EXPECT_TRUE(sdk->forces.empty());
+  const auto refusal = [](int which) { return omega_refusal([which] { open_omega(STAND_IN_DHD, OMEGA_WATCHDOG, which); }); };
+  expect_has(refusal(1), "in use by another session of wholehand");
+  expect_has(refusal(4002), "no free device has the serial number 4002; device 0 has 4001; device 1: ");
+  expect_has(refusal(4002), "; device 2 gives none");
+  sdk->calls.clear();
+  expect_has(refusal(4003), "no free device has the serial number 4003");
+  EXPECT_EQ(sdk->calls, (std::vector<std::string>{"dhdOpenID", "dhdClose", "dhdOpenID", "dhdClose"})) << "nothing is enabled";
+  EXPECT_EQ(sdk->opened.size(), 9u) << "the device of the other session was not touched";
+  EXPECT_EQ(open_omega(STAND_IN_DHD, OMEGA_WATCHDOG, 4001)->limits().address, "omega:4001");
+}
+
+// Between the search and the opening somebody replugs: the number is now another device's.
+TEST_F(OmegaGripperTest, ADeviceThatTookTheNumberGetsNoForce) {
+  sdk->types = {OMEGA_RIGHT, OMEGA_LEFT};
+  sdk->hooks["dhdOpenID"] = [this] {
+    if (sdk->opened.size() == 2) sdk->serials = {4002, 4001};
+  };
+  expect_has(omega_refusal([] { open_omega(STAND_IN_DHD, OMEGA_WATCHDOG, 4002); }),
+             "omega:4002: the devices changed while they were searched; start again");
+  EXPECT_EQ(sdk->opened, (std::vector<int>{0, 1, 1}));
+  EXPECT_EQ(sdk->closed, (std::vector<int>{0, 1, 1}));
+  for (const std::string& call : sdk->calls) EXPECT_TRUE(call == "dhdOpenID" || call == "dhdClose" || call == "dhdStop") << call;
+}
+
 TEST_F(OmegaGripperTest, RefusesOtherModelsByName) {
   sdk->types = {33};
   sdk->name = "omega.3";
@@ -114,7 +146,7 @@ TEST_F(OmegaGripperTest, FindsEveryDevice) {
   const auto found = find_omega_grippers(STAND_IN_DHD);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].address, "omega");
-  EXPECT_EQ(found[0].name, "omega.7, left hand");
+  EXPECT_EQ(found[0].name, "omega.7, left hand, serial 4001");
   EXPECT_EQ(found[0].summary, "up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4,000 Hz; SDK 3.17.6 (" STAND_IN_DHD ")");
   EXPECT_EQ(found[0].missing, "");
   EXPECT_EQ(found[1].address, "");
