@@ -72,7 +72,7 @@ wholehand_package(development libwholehand-dev libdevel
   "${development_depends}"
   "whole-hand grasping with a two-finger gripper - for C and C++ programs" ${what_it_is} "" "This package has headers and static libraries," "and files for CMake and pkg-config.")
 # what the C library alone does not need
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libassimp-dev, libembree-dev, libfmt-dev, libglm-dev, libhdf5-dev, libnetcdf-dev, libqhull-dev, libtinygltf-dev, libtomlplusplus-dev, libvulkan-dev, libxxhash-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, libglm-dev, libhdf5-dev, libmeshoptimizer-dev, libnetcdf-dev, libpugixml-dev, libqhull-dev, libtinygltf-dev, libtomlplusplus-dev, libvulkan-dev, libxxhash-dev, nlohmann-json3-dev")
 if(TARGET wholehand_python)
   wholehand_package(python python3-wholehand python
     "wholehand-common ${same_version}, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-xarray, python3-netcdf4, libvulkan1"

@@ -115,30 +115,59 @@ Vec3 EffortSolver::arm(const ContactPoint& contact) const { return (contact.plac
 
 Real EffortSolver::gamma() const { return hand_.torsion / unit_length_; }
 
-// For each digit, the contact with the largest support along a direction, if positive.
-EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
-  Best best;
-  best.fill(-1);
-  std::array<Real, DIGITS> most{};
+// The point of Z farthest along a direction: each digit presses with all of its strength at the contact with the largest support, if this is positive.
+EffortSolver::Presses EffortSolver::presses(const Vec6& direction) const {
+  Presses all;
+  if (share_)  // a finger may have to press against the direction, so that another one may press along it
+    for (Press& one : all) one.support = -NEVER;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const auto digit = static_cast<std::size_t>(contacts_[i].digit);
+    Press& best = all[static_cast<std::size_t>(contacts_[i].digit)];
     const Real value = press(arm(contacts_[i]), contacts_[i].normal, hand_.friction, gamma(), direction);
-    if (!(value > most[digit])) continue;
-    most[digit] = value;
-    best[digit] = static_cast<int>(i);
+    if (!(value > best.support)) continue;
+    best.support = value;
+    best.contact = static_cast<int>(i);
   }
-  return best;
+  for (std::size_t digit = 0; digit < DIGITS; ++digit)
+    if (all[digit].support > 0) all[digit].force = hand_.digits[digit];
+  if (share_) keep_share(all);
+  return all;
+}
+
+// The bound is one linear inequality, sum of slope x force >= 0, beside a range for each finger's force. The changes that bring the forces into the
+// bound at the least cost in support come first.
+void EffortSolver::keep_share(Presses& all) const {
+  struct Change {
+    std::size_t digit = 0;
+    Real slope = 0, cost = 0;  // the cost of a unit of the sum
+  };
+  std::array<Change, FINGERS - 1> changes;
+  std::size_t count = 0;
+  Real sum = 0;
+  for (std::size_t digit = 1; digit < FINGERS; ++digit) {
+    const Press& one = all[digit];
+    if (one.contact < 0) continue;
+    const Real share = static_cast<int>(digit) == share_->digit ? 1 - share_->share : -share_->share;
+    const Real slope = share_->is_least ? share : -share;
+    sum += slope * one.force;
+    if (one.force > 0 ? slope < 0 : slope > 0) changes[count++] = {digit, slope, std::abs(one.support / slope)};
+  }
+  std::sort(changes.begin(), changes.begin() + count, [](const Change& a, const Change& b) { return a.cost < b.cost; });
+  for (std::size_t k = 0; k < count && sum < 0; ++k) {
+    Real& force = all[changes[k].digit].force;
+    const Real step = std::min(hand_.digits[changes[k].digit], -sum / std::abs(changes[k].slope));
+    force += changes[k].slope > 0 ? step : -step;
+    sum += std::abs(changes[k].slope) * step;
+  }
 }
 
 // h(u), and the point of Z that attains it.
 Real EffortSolver::support(const Vec6& direction, Vec6& point) const {
-  const Best best = best_contacts(direction);
   for (std::size_t k = 0; k < 6; ++k) point[k] = -displaced_[k];
-  for (std::size_t digit = 0; digit < DIGITS; ++digit) {
-    if (best[digit] < 0) continue;
-    const ContactPoint& contact = contacts_[static_cast<std::size_t>(best[digit])];
+  for (const Press& one : presses(direction)) {
+    if (!(one.force > 0)) continue;
+    const ContactPoint& contact = contacts_[static_cast<std::size_t>(one.contact)];
     const Vec6 wrench = pressed(arm(contact), contact.normal, hand_.friction, gamma(), direction);
-    for (std::size_t k = 0; k < 6; ++k) point[k] += hand_.digits[digit] / unit_force_ * wrench[k];
+    for (std::size_t k = 0; k < 6; ++k) point[k] += one.force / unit_force_ * wrench[k];
   }
   return dot6(direction, point);
 }
@@ -152,6 +181,11 @@ void EffortSolver::displace(const Wrench& alone) {
 void EffortSolver::set_friction(Real friction) {
   if (friction < hand_.friction) has_basis_ = false;
   hand_.friction = friction;
+}
+
+void EffortSolver::set_share(const ShareBound& bound) {
+  share_ = bound;
+  has_basis_ = false;
 }
 
 EffortSolver::Reach EffortSolver::reach(const Vec6& direction, Real friction) const {
@@ -454,13 +488,12 @@ void EffortSolver::forces(std::span<ContactForce> forces) const {
   if (!has_basis_) return;
   for (std::size_t r = 0; r < 6; ++r) {
     if (columns_[r].is_artificial || !(last_[r] > 0)) continue;
-    const Best best = best_contacts(columns_[r].direction);
-    for (std::size_t digit = 0; digit < DIGITS; ++digit) {
-      if (best[digit] < 0) continue;
-      const auto at = static_cast<std::size_t>(best[digit]);
+    for (const Press& one : presses(columns_[r].direction)) {
+      if (!(one.force > 0)) continue;
+      const auto at = static_cast<std::size_t>(one.contact);
       const ContactPoint& contact = contacts_[at];
       const ContactForce unit = pressing_force(arm(contact), contact.normal, hand_.friction, gamma(), columns_[r].direction);
-      const Real size = last_[r] * hand_.digits[digit];
+      const Real size = last_[r] * one.force;
       forces[at].force += size * unit.force;
       forces[at].torsion += size * (unit.torsion * unit_length_);
     }

@@ -46,6 +46,13 @@ struct HandStrength {
   Real weaker_tip() const { return digits[0] < digits[1] ? digits[0] : digits[1]; }
 };
 
+// One side of a finger's share: of the normal forces of the fingers other than the thumb, `digit` presses `share` at least or at most.
+struct ShareBound {
+  int digit = 1;  // index to little finger
+  Real share = 0;
+  bool is_least = true;
+};
+
 struct ContactForce {
   Vec3 force{};      // on the object, N
   Real torsion = 0;  // moment about the inward normal, N m
@@ -89,6 +96,8 @@ class EffortSolver {
   void displace(const Wrench& alone);
   // As friction grows the last basis stays valid: more friction carries whatever less does.
   void set_friction(Real friction);
+  // From here on, only forces within this bound count. least_friction ignores it.
+  void set_share(const ShareBound& bound);
   // The friction, up to `most`, at which the direction of the last solve's lower bound just allows a load: less does not hold it. Infinite: more is
   // needed.
   Real least_friction(const Wrench& load, Real most) const;
@@ -127,13 +136,20 @@ class EffortSolver {
     std::optional<std::array<Column, 6>> balanced{};  // the last basis whose levels are none below zero
     bool is_beyond = false;                           // the lower bound is beyond `too_much`
   };
-  using Best = std::array<int, DIGITS>;  // a contact each; -1: none
+  // How a digit presses in one point of Z: with one contact.
+  struct Press {
+    int contact = -1;  // none
+    Real support = 0;  // of a unit normal force there
+    Real force = 0;    // normal, N
+  };
+  using Presses = std::array<Press, DIGITS>;
 
   Effort search(const Wrench& load, Real tolerance, Real enough, Real too_much, int most_pivots);
   void narrow(Search& now);
   bool answer_with_basis(Search& now, bool& is_certain);
   Vec6 wanted_for(const Wrench& load) const;
-  Best best_contacts(const Vec6& direction) const;
+  Presses presses(const Vec6& direction) const;
+  void keep_share(Presses& all) const;
   Cost cost_of(const Vec6& levels) const;
   Vec3 arm(const ContactPoint& contact) const;
   Real gamma() const;
@@ -156,9 +172,10 @@ class EffortSolver {
   std::array<Column, 6> columns_{};
   std::array<Vec6, 6> inverse_{};  // rows
   Vec6 displaced_{};               // by which points of Z are smaller
-  Vec6 last_{};                    // levels of the last load
-  Vec6 cut_{};                     // u of the last lower bound
-  Real cut_height_ = 1;            // h(u)
+  std::optional<ShareBound> share_{};
+  Vec6 last_{};          // levels of the last load
+  Vec6 cut_{};           // u of the last lower bound
+  Real cut_height_ = 1;  // h(u)
   bool has_basis_ = false;
 };
 

@@ -45,6 +45,8 @@ constexpr std::array WORDS{
     Words{FileKind::stl, "a mesh (STL)", "a scene names it: mesh = \"FILE\""},
     Words{FileKind::obj, "a mesh (OBJ)", "a scene names it: mesh = \"FILE\""},
     Words{FileKind::ply, "a mesh (PLY)", "a scene names it: mesh = \"FILE\""},
+    Words{FileKind::off, "a mesh (OFF)", "a scene names it: mesh = \"FILE\""},
+    Words{FileKind::collada, "a mesh (Collada)", "a scene names it: mesh = \"FILE\""},
     Words{FileKind::result, "a NetCDF-4 file, as sweeps write them,", "wholehand rank, report and view read results of sweeps"},
     Words{FileKind::recording, "a NetCDF file of the classic format", "wholehand session and view read recordings"},
     Words{FileKind::scene, "a scene file (TOML)", "wholehand sweep, grip and live read scenes"},
@@ -93,6 +95,9 @@ FileKind kind_of_text(std::string_view text) {
   if (begins_like(body, "<!doctype html") || begins_like(body, "<html")) return FileKind::web_page;
   if (is_toml(body)) return FileKind::scene;
   if (word == "solid") return FileKind::stl;
+  if (off_head(word) > 0) return FileKind::off;
+  if (body.starts_with("<?xml") || body.starts_with("<COLLADA"))
+    return text.find("<COLLADA") != text.npos ? FileKind::collada : FileKind::unknown;
   constexpr std::array OBJ_WORDS{"v"sv, "vn"sv, "vt"sv, "f"sv, "o"sv, "g"sv, "s"sv, "mtllib"sv, "usemtl"sv};
   if (std::find(OBJ_WORDS.begin(), OBJ_WORDS.end(), word) != OBJ_WORDS.end()) return FileKind::obj;
   return FileKind::unknown;
@@ -113,6 +118,12 @@ bool is_utf16(std::string_view start) {
 std::string_view first_word(std::string_view text) {
   const std::string_view body = from_first_word(text);
   return body.substr(0, body.find_first_of(BLANKS));
+}
+
+std::size_t off_head(std::string_view word) {
+  const std::size_t end = word.find("OFF") + 3;
+  const bool is_head = word.find("OFF") < word.npos && word.substr(0, end - 3).find_first_not_of("STCN4n") == word.npos;
+  return is_head && word.find_first_not_of("0123456789", end) == word.npos ? end : 0;
 }
 
 bool is_binary_stl(std::string_view start, std::uint64_t size) {

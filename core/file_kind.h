@@ -2,16 +2,21 @@
 // Tells what a file is by its first bytes, whatever its name, to help users who give a wrong one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace wholehand {
 
-enum class FileKind { unknown, gltf, stl, obj, ply, result, recording, scene, lfs_pointer, web_page, utf16, archive };
+enum class FileKind { unknown, gltf, stl, obj, ply, off, collada, result, recording, scene, lfs_pointer, web_page, utf16, archive };
 
 // `start`: the first bytes, of which 64 KiB are examined; `size`: bytes of the whole file.
 FileKind file_kind(std::string_view start, std::uint64_t size);
+
+// The length of an OFF's first word up to its last F, with what its vertices have besides coordinates: 3 of "OFF", 4 of "COFF", 3 of "OFF8", where a
+// count follows without a blank; 0 if the word is none of these.
+std::size_t off_head(std::string_view word);
 
 // What a file is. Unknown if there is no readable regular file. Does not wait on a pipe.
 FileKind file_kind_at(const std::string& path);

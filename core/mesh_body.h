@@ -26,12 +26,15 @@ struct MeshFacts {
   std::size_t turned_triangles = 0;    // faced inward and were turned
   std::size_t holes = 0;               // loops of the edges that are still open
   double widest_hole = 0;              // of these, m across
-  bool closable = false;               // close_holes closes them all
-  std::size_t closed_holes = 0;        // small holes that were closed
+  std::size_t open_holes = 0;          // holes that are neither flat nor small: close_holes does not close them
+  double widest_open_hole = 0;         // of those, m across
+  bool closable = false;               // close_holes closes all holes
+  std::size_t closed_holes = 0;        // holes that were closed
   double widest_closed_hole = 0;       // of these, m across
   bool closed = false;                 // each edge has an even number of triangles: a ray's crossings show what is inside
   bool oriented = false;               // each edge is used equally often in both directions, give or take one
   bool was_inside_out = false;         // all triangles were flipped
+  double thickness = 0;                // m, that a sheet without one was given
   bool closes_nothing = false;         // closing holes was requested, and no edge is open
   Triple low{}, high{};                // bounding box, m
   double area = 0;                     // m2

@@ -121,9 +121,12 @@ struct MeshData {
   double scale = 1;
   bool z_is_up = false;      // of the file: its z becomes y before `rotate`
   bool says_up = false;      // the scene says which way is up
-  bool close_holes = false;  // closes small ones before the mesh is used
+  bool close_holes = false;  // closes flat and small ones before the mesh is used
   Triple rotate{};           // rad
   bool origin_at_base = true;
+  std::optional<Triple> origin;           // m: the point of the turned file at which the vessel's frame begins, instead of the base
+  std::vector<int> parts;                 // numbers from 1 of those that are taken (core/meshes/parts.h); empty: all
+  std::optional<double> thickness;        // m, of a sheet that has none
   std::optional<double> lattice_spacing;  // m; absent: as wide as the wanted accuracy allows
   std::shared_ptr<const MeshBody> body;   // the file's body, once read (core/meshes/vessel.h); null before
 };

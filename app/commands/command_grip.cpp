@@ -290,7 +290,7 @@ void add_grip_command(CLI::App& app, Action& action) {
   add("--precision", arguments->precision, "P", "float or double (default: double on the core, float on Vulkan)")
       ->check(offered("float double"));
   command->add_flag("--quality", arguments->quality,
-                    "Measure the grasp as Ferrari and Canny do: epsilon and the volume of the wrenches; takes seconds");
+                    "Measure the grasp: epsilon and the volume of the wrenches, and how much each finger presses; takes seconds");
   add("--glb", arguments->glb, "FILE", "Write the hand, the vessel and the liquid as glTF binary")->check(not_empty());
   add("--svg", arguments->svg, "FILE", "Write a drawing with the front, side and top view")->check(not_empty());
 #ifdef HAS_VIEWER

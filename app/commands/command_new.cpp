@@ -16,6 +16,7 @@
 #include "base/system/output.h"
 #include "base/text/readable.h"
 #include "core/capacity.h"
+#include "core/meshes/survey.h"
 #include "core/reader/new_scene.h"
 #include "core/reader/reader.h"
 
@@ -39,6 +40,18 @@ double checked(const std::string& text, const std::string& option, const Quantit
   return std::stod(text);
 }
 
+// With a mesh, the text has the keys that a survey finds; the findings go to standard error.
+std::string scene_text(NewScene wanted, const std::string& mesh, const std::string& file) {
+  if (mesh.empty()) return new_scene(wanted);
+  SurveyRequest request{mesh, {}, {}, {}, {}};
+  for (const auto& [key, value] : wanted.numbers)
+    if (key == "mesh_scale") request.scale = value;
+  const MeshSurvey survey = survey_mesh(request);
+  for (const std::string& line : survey_lines(survey)) print_note(line);
+  wanted.mesh = std::filesystem::proximate(mesh, std::filesystem::absolute(file).parent_path()).string();
+  return scene_of_mesh(wanted, survey);
+}
+
 ExitCode write_new(const NewArguments& arguments) {
   const std::filesystem::path given(arguments.name);
   std::filesystem::path file = given;
@@ -54,19 +67,18 @@ ExitCode write_new(const NewArguments& arguments) {
   if (!arguments.mesh.empty()) {
     if (!std::filesystem::is_regular_file(arguments.mesh))
       throw usage_error(fmt::format("--mesh {}: no such file", arguments.mesh));
-    wanted.mesh = std::filesystem::proximate(arguments.mesh, std::filesystem::absolute(file).parent_path()).string();
   }
   if (!arguments.fill.empty()) wanted.fill = checked(arguments.fill, "--fill-ml", ranges::FILL_VOLUME);
   check_output_path(file.string(), "new");
   check_overwrites_nothing(file.string(), "new");
   std::string text;
   try {
-    text = new_scene(wanted);
+    text = scene_text(wanted, arguments.mesh, file.string());
   } catch (const Error& error) {
     throw usage_error(fmt::format("new: {}", error.what()));
   }
   write_whole_file(file.string(), text, false);
-  const double capacity = wanted.mesh.empty() ? capacity_of(parse_scene(text, file.string()).vessels[0]) : 0;
+  const double capacity = capacity_of(parse_scene(text, file.string()).vessels[0]);
   print(fmt::format("Wrote {0}{1}. Next: wholehand sweep {0}\n", file.string(),
                     capacity > 0 ? fmt::format(", a vessel that holds {} mL", fixed_text(1e6 * capacity, 0)) : ""));
   return ExitCode::done;
@@ -83,7 +95,9 @@ void add_new_command(CLI::App& app, Action& action) {
   add("name", arguments->name, "NAME", "Name of the scene, which is written to NAME.toml")->required()->check(not_an_option());
   auto* shape = add("--shape", arguments->shape, "SHAPE", "cylinder (the default), flask or conical")
                     ->check(offered("cylinder flask conical"));
-  add("--mesh", arguments->mesh, "FILE", "Instead of a shape: a solid mesh (.glb, .gltf, .stl, .obj or .ply)")->excludes(shape);
+  add("--mesh", arguments->mesh, "FILE",
+      "Instead of a shape: a mesh (.glb, .gltf, .stl, .obj, .ply, .off or .dae), with the keys that `wholehand mesh` finds")
+      ->excludes(shape);
   for (std::size_t k = 0; k < arguments->numbers.size(); ++k)
     add(option_of(new_scene_keys()[k].name), arguments->numbers[k], "N", new_scene_keys()[k].help);
   add("--fill-ml", arguments->fill, "V",

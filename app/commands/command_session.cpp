@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // wholehand session: statistics of a recording, and of recordings of several people together.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -15,6 +18,8 @@
 #include "base/files/folder_files.h"
 #include "base/files/pictures.h"
 #include "base/system/output.h"
+#include "device/recordings/grasp_collector.h"
+#include "device/recordings/grip_scatter.h"
 #include "device/recordings/session_plot.h"
 #include "device/recordings/session_report.h"
 
@@ -41,6 +46,61 @@ std::string write_session_files(const std::string& folder, const device::Recordi
   return recording.ticks.empty() ? "" : write_pictures({{picture, device::session_picture(recording, report)}});
 }
 
+// Throws Error (usage) if a recording is named twice: each counts once.
+void check_different(const std::vector<std::string>& paths) {
+  std::error_code unknown;
+  for (std::size_t k = 0; k < paths.size(); ++k)
+    for (std::size_t other = 0; other < k; ++other)
+      if (std::filesystem::equivalent(paths[other], paths[k], unknown))
+        throw usage_error(fmt::format("{}: is named twice; each recording counts once", paths[k]));
+}
+
+// `grip` of a GraspReport mirrors azimuth, roll and offset of a left hand.
+bool is_left_handed(const device::RecordingInfo& info) {
+  return !info.scene_text.empty() && device::scene_of_recording(info).hand.handedness == Handedness::left;
+}
+
+bool is_simulated(const device::RecordingInfo& info) { return info.device.address == "sim"; }
+
+// A simulated session repeats with its seed, and a real one has its start.
+bool is_same_session(const device::RecordingInfo& a, const device::RecordingInfo& b) {
+  return is_simulated(a) ? is_simulated(b) && a.seed == b.seed : !a.start.empty() && a.start == b.start;
+}
+
+// The last of `infos` against those before it.
+void check_same_person(const std::vector<device::RecordingInfo>& infos, const std::vector<std::string>& paths) {
+  const device::RecordingInfo& first = infos.front();
+  const device::RecordingInfo& last = infos.back();
+  const std::string& path = paths[infos.size() - 1];
+  // a seed and a number make a virtual person
+  if (is_simulated(first) != is_simulated(last) || first.person != last.person || (first.person && first.seed != last.seed))
+    throw usage_error(fmt::format("{}: is not of the same person as {}", path, paths.front()));
+  for (std::size_t k = 0; k + 1 < infos.size(); ++k)
+    if (is_same_session(infos[k], last)) throw usage_error(fmt::format("{}: is of the same session as {}", path, paths[k]));
+}
+
+// Prints the scatter of one person's grips, within a recording and between recordings.
+ExitCode print_scatter(const std::vector<std::string>& paths) {
+  std::vector<device::GraspReport> grasps;
+  std::vector<device::RecordingInfo> infos;
+  for (const std::string& path : paths) {
+    const device::Recording recording = device::read_recording(path);
+    if (!recording.note.empty()) print_note(recording.note);
+    if (!infos.empty() && !has_same_vessels(infos.front(), recording.info))
+      throw usage_error(fmt::format("{}: its vessels or their liquids are not those of {}", path, paths.front()));
+    infos.push_back(recording.info);
+    check_same_person(infos, paths);
+    if (is_left_handed(infos.front()) != is_left_handed(recording.info))
+      throw usage_error(fmt::format("{}: is of the other hand than {}", path, paths.front()));
+    const std::vector<device::GraspReport> own = device::grasps_of(recording);
+    grasps.insert(grasps.end(), own.begin(), own.end());
+  }
+  device::GripScatter scatter;
+  scatter.add(grasps);
+  print(scatter.table());
+  return ExitCode::done;
+}
+
 ExitCode report_recording(const SessionArguments& arguments) {
   const device::Recording recording = device::read_recording(arguments.recordings.front());
   if (!arguments.folder.empty()) {
@@ -55,13 +115,20 @@ ExitCode report_recording(const SessionArguments& arguments) {
   return ExitCode::done;
 }
 
+ExitCode report_recordings(const SessionArguments& arguments) {
+  if (arguments.recordings.size() == 1) return report_recording(arguments);
+  if (arguments.json || !arguments.folder.empty())
+    throw usage_error(
+        "session: several recordings, of one person, give the scatter of the grips alone; --json and -o go with one recording");
+  return print_scatter(arguments.recordings);
+}
+
 #ifdef HAS_EVIDENCE
 ExitCode report_or_study(const SessionArguments& arguments) {
+  check_different(arguments.recordings);
   if (!arguments.study) {
-    if (arguments.recordings.size() > 1)
-      throw usage_error("session: more than one recording; add --study to see what they say together");
     if (!arguments.seed.empty()) throw usage_error("--seed: goes with --study, whose intervals are drawn by chance");
-    return report_recording(arguments);
+    return report_recordings(arguments);
   }
   if (arguments.json) throw usage_error("--json: goes without --study; study.csv and study.nc of -o have the numbers");
   RecordedPeople people{arguments.recordings, arguments.folder};
@@ -70,8 +137,8 @@ ExitCode report_or_study(const SessionArguments& arguments) {
 }
 #else
 ExitCode report_or_study(const SessionArguments& arguments) {
-  if (arguments.recordings.size() > 1) throw usage_error("session: more than one recording; this program reads one at a time");
-  return report_recording(arguments);
+  check_different(arguments.recordings);
+  return report_recordings(arguments);
 }
 #endif
 
@@ -82,13 +149,15 @@ void add_session_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "session", "Compute from a recording what the paper measured: states, response times, grip forces, lost grips");
   command
-      ->add_option("recording", arguments->recordings, "Recording of `wholehand live --record`; with --study one for each person")
+      ->add_option("recording", arguments->recordings,
+                   "Recording of `wholehand live --record`, or several of one person; with --study one for each person")
       ->type_name("FILE.nc")
       ->required()
       ->check(not_empty());
   command
-      ->add_option("-o,--output", arguments->folder,
-                   "Folder for session.csv, states.csv and session.svg; with --study for study.csv, study.nc and study.html")
+      ->add_option(
+          "-o,--output", arguments->folder,
+          "Folder for session.csv, states.csv and session.svg; with --study for study.csv, study.nc, study.html and grasps.csv")
       ->type_name("DIR")
       ->check(not_empty());
   command->add_flag("--json", arguments->json, "Print one JSON object in one line");

@@ -36,6 +36,7 @@ void add_session_command(CLI::App& app, Action& action);
 void add_view_command(CLI::App& app, Action& action);
 void add_devices_command(CLI::App& app, Action& action);
 void add_new_command(CLI::App& app, Action& action);
+void add_mesh_command(CLI::App& app, Action& action);
 void add_scenes_command(CLI::App& app, Action& action);
 void add_help_command(CLI::App& app, Action& action);
 void add_completion_command(CLI::App& app, Action& action);

@@ -30,6 +30,7 @@ void add_all(CLI::App& app, wholehand::Action& action) {
 #endif
   wholehand::add_devices_command(app, action);
   wholehand::add_new_command(app, action);
+  wholehand::add_mesh_command(app, action);
   wholehand::add_scenes_command(app, action);
   wholehand::add_help_command(app, action);
   wholehand::add_completion_command(app, action);

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "base/system/output.h"
@@ -16,8 +14,11 @@
 #include "core/reader/reader.h"
 #include "core/scene.h"
 #include "device/recordings/grasp_collector.h"
+#include "device/recordings/grip_scatter.h"
 #include "device/recordings/recording.h"
+#include "evidence/studies/answer.h"
 #include "evidence/studies/folder.h"
+#include "evidence/studies/grasp_table.h"
 #include "evidence/studies/options.h"
 #include "evidence/studies/session_charts.h"
 #include "evidence/studies/session_page.h"
@@ -32,14 +33,9 @@ struct RecordedSessions {
   Scene scene;  // of the first
   SessionVessels vessels;
   std::vector<SessionSubject> subjects;
+  device::GripScatter scatter;
   bool are_simulated = true;  // all were made by virtual people
 };
-
-bool has_same_vessels(const device::RecordingInfo& a, const device::RecordingInfo& b) {
-  return std::equal(
-      a.vessels.begin(), a.vessels.end(), b.vessels.begin(), b.vessels.end(),
-      [](const device::RecordedVessel& x, const device::RecordedVessel& y) { return x.name == y.name && x.liquid == y.liquid; });
-}
 
 // Also where neither is known.
 bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -54,27 +50,12 @@ void note_differences(const device::RecordingInfo& first, const device::Recordin
   print_note(fmt::format("{}: F_base, F_max or an F_range differ from those of {}; both count alike", path, first_path));
 }
 
-std::vector<device::GraspReport> grasps_of(const device::Recording& recording) {
-  device::GraspCollector collector(recording.info.rate, recording.info.force_max);
-  for (const device::Tick& tick : recording.ticks) collector.add(tick);
-  return collector.finish();
-}
-
-// A recording is one person, and counts once.
-void check_is_another(const std::vector<std::string>& paths, std::size_t k) {
-  std::error_code unknown;
-  for (std::size_t other = 0; other < k; ++other)
-    if (std::filesystem::equivalent(paths[other], paths[k], unknown))
-      throw usage_error(fmt::format("{}: is named twice; each recording counts as one person", paths[k]));
-}
-
 // One recording at a time is in memory.
 RecordedSessions read_sessions(const std::vector<std::string>& paths) {
   RecordedSessions sessions;
   std::optional<device::RecordingInfo> first;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const std::string& path = paths[k];
-    check_is_another(paths, k);
     const device::Recording recording = device::read_recording(path);
     if (!recording.note.empty()) print_note(recording.note);
     if (!first) {
@@ -89,16 +70,20 @@ RecordedSessions read_sessions(const std::vector<std::string>& paths) {
     }
     note_differences(*first, recording.info, path, paths.front());
     sessions.are_simulated = sessions.are_simulated && recording.info.device.address == "sim";
-    sessions.subjects.push_back({grasps_of(recording)});
+    sessions.subjects.push_back({device::grasps_of(recording)});
+    sessions.scatter.add(sessions.subjects.back().grasps);
   }
   return sessions;
 }
 
 StudyPage page_of_recordings(const RecordedSessions& sessions, const StudyOptions& options, const std::vector<StudyRow>& rows) {
   StudyPage page;
+  const std::string note = few_people_note(sessions.subjects.size());
   page.title = study_title(sessions.scene);
-  page.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", counted(sessions.subjects.size(), "recorded session"),
-                          readable_number(static_cast<std::uint64_t>(options.resamples)), options.seed);
+  page.lead =
+      fmt::format("{}, and {} samples of the paper's size; seed {}.{}", counted(sessions.subjects.size(), "recorded session"),
+                  readable_number(static_cast<std::uint64_t>(options.resamples)), options.seed, note.empty() ? "" : " " + note);
+  page.sections.push_back(answer_section(rows));
   page.sections.push_back(session_section(sessions.vessels, rows, sessions.are_simulated));
   page.sections.back().charts = session_charts(sessions.subjects, sessions.vessels, rows);
   page.seed = options.seed;
@@ -131,9 +116,17 @@ ExitCode study_recordings(const RecordedPeople& people) {
   options.seed = people.seed;
   const std::vector<StudyRow> rows =
       session_rows(sessions.subjects, sessions.vessels, {options.seed, options.resamples, options.threads, sessions.are_simulated});
-  if (folder) folder->write(sessions.scene, options, page_of_recordings(sessions, options, rows), rows);
+  if (folder) {
+    for (std::size_t k = 0; k < sessions.subjects.size(); ++k)
+      folder->add_grasps(session_grasp_rows(sessions.scene, {k}, sessions.subjects[k].grasps));
+    folder->write(sessions.scene, options, page_of_recordings(sessions, options, rows), rows);
+  }
   print(grasps_line(sessions) + study_summary(rows));
-  if (sessions.subjects.size() < LEAST_SUBJECTS) print(fmt::format("Intervals need {} recordings or more.\n", LEAST_SUBJECTS));
+  if (sessions.subjects.size() < LEAST_SUBJECTS)
+    print(fmt::format("Intervals need {} recordings or more.\n", LEAST_SUBJECTS));
+  else if (const std::string note = few_people_note(sessions.subjects.size()); !note.empty())
+    print(note + "\n");
+  print("\n" + sessions.scatter.table());
   if (folder) print("\n" + folder->written() + "\n");
   return ExitCode::done;
 }

@@ -12,6 +12,7 @@ void bind_evaluate(pybind11::module_& module);
 void bind_sweep(pybind11::module_& module);
 void bind_grip(pybind11::module_& module);
 void bind_check(pybind11::module_& module);
+void bind_mesh(pybind11::module_& module);
 void bind_session(pybind11::module_& module);
 
 }  // namespace wholehand

@@ -14,5 +14,6 @@ PYBIND11_MODULE(_core, module) {
 #ifdef HAS_EVIDENCE
   bind_check(module);
 #endif
+  bind_mesh(module);
   bind_session(module);
 }

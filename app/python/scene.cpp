@@ -171,9 +171,14 @@ HandlePointer scene_of_dataset(const std::string& text, const std::string& sourc
   return std::make_shared<SceneHandle>(std::move(scene));
 }
 
-std::string new_text(const std::string& name, const std::string& shape, const std::string& mesh,
-                     const std::vector<std::pair<std::string, double>>& numbers, std::optional<double> fill) {
-  return new_scene({name, shape, mesh, numbers, fill});
+std::string new_text(const std::string& name, const std::string& shape, const std::vector<std::pair<std::string, double>>& numbers,
+                     std::optional<double> fill) {
+  NewScene wanted;
+  wanted.name = name;
+  wanted.shape = shape;
+  wanted.numbers = numbers;
+  wanted.fill = fill;
+  return new_scene(wanted);
 }
 
 std::vector<std::string> vessel_names(const SceneHandle& scene) {
@@ -257,7 +262,7 @@ void bind_scene(py::module_& module) {
     for (const NewSceneKey& key : new_scene_keys()) names.emplace_back(key.name);
     return names;
   });
-  module.def("new_scene", &new_text, py::arg("name"), py::arg("shape"), py::arg("mesh"), py::arg("numbers"), py::arg("fill"));
+  module.def("new_scene", &new_text, py::arg("name"), py::arg("shape"), py::arg("numbers"), py::arg("fill"));
   module.def("shipped_scenes", &shipped_scenes);
 }
 

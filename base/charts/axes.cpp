@@ -87,9 +87,9 @@ std::string chart_number(double value) {
   return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
 }
 
-void open_chart(MarkupWriter& svg, const ChartName& name, double height) {
+void open_chart(MarkupWriter& svg, const ChartName& name, double height, double width) {
   svg.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
-                   {"viewBox", fmt::format("0 0 {} {}", chart_number(CHART_WIDTH), chart_number(height))},
+                   {"viewBox", fmt::format("0 0 {} {}", chart_number(width), chart_number(height))},
                    {"role", "img"},
                    {"aria-labelledby", name.id + "-title " + name.id + "-text"}});
   svg.element("title", name.title, {{"id", name.id + "-title"}});

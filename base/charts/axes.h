@@ -58,7 +58,7 @@ double text_width(std::string_view text);
 std::string chart_number(double value);
 
 // Opens the chart's <svg>; the caller closes it.
-void open_chart(MarkupWriter& svg, const ChartName& name, double height);
+void open_chart(MarkupWriter& svg, const ChartName& name, double height, double width = CHART_WIDTH);
 void put_text(MarkupWriter& svg, double x, double y, const std::string& text, const char* style);
 void put_line(MarkupWriter& svg, double x1, double y1, double x2, double y2, const char* style);
 void put_frame(MarkupWriter& svg, const PlotArea& area);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "base/files/csv.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <string_view>
 
 #include "base/text/printable.h"
@@ -26,6 +29,8 @@ std::string csv_text(const std::string& text) {
   }
   return quoted + '"';
 }
+
+std::string csv_number(double value, double unit) { return std::isfinite(value) ? fmt::format("{:.9g}", value / unit) : ""; }
 
 std::vector<CsvRow> parse_csv(const std::string& text) {
   std::vector<CsvRow> rows;

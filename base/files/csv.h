@@ -13,6 +13,9 @@ namespace wholehand {
 // feeds and tabs. Do not use it for numbers.
 std::string csv_text(const std::string& text);
 
+// The cell of a number in nine digits, over `unit`; empty if it is not finite.
+std::string csv_number(double value, double unit = 1);
+
 // A row of a file, and the line number (from 1) at which it begins.
 struct CsvRow {
   std::size_t line = 1;

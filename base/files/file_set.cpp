@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -44,6 +45,12 @@ std::string FileSet::temporary_path(const std::string& path) {
 
 void FileSet::write(const std::string& path, const std::string& text, const char* remedy) {
   const int error = write_new_file(temporary_path(path), text, false);
+  if (error != 0) throw cannot_write(path, error, remedy);
+}
+
+void FileSet::append(const std::string& path, const std::string& text, const char* remedy) {
+  const bool is_begun = std::any_of(files_.begin(), files_.end(), [&](const File& file) { return file.path == path; });
+  const int error = append_to_file(is_begun ? temporary_name(path) : temporary_path(path), text);
   if (error != 0) throw cannot_write(path, error, remedy);
 }
 

@@ -24,6 +24,8 @@ class FileSet {
   std::string temporary_path(const std::string& path);
   // Writes `text` to it. Throws Error (failure) with the remedy.
   void write(const std::string& path, const std::string& text, const char* remedy);
+  // Adds `text` to it, so that a large file need not be in memory at once. Throws Error (failure) with the remedy.
+  void append(const std::string& path, const std::string& text, const char* remedy);
   // Leaves no file at `path`: commit() removes an existing file and writes no new one.
   void remove_on_commit(const std::string& path);
 

@@ -50,6 +50,16 @@ void try_folder(const std::string& asked, const std::string& folder, const char*
   unlink(trial.c_str());
 }
 
+bool write_all(int file, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t written = write(file, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    done += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string followed(const std::string& path) {
@@ -226,17 +236,19 @@ std::string temporary_name(const std::string& path) { return fmt::format("{}.{}.
 int write_new_file(const std::string& path, const std::string& text, bool durable) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0) return errno;
-  bool good = true;
-  for (std::size_t done = 0; good && done < text.size();) {
-    const ssize_t written = write(file, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    good = written > 0;
-    if (good) done += static_cast<std::size_t>(written);
-  }
+  bool good = write_all(file, text);
   if (good && durable) good = fsync(file) == 0;
   const int error = good ? 0 : errno != 0 ? errno : EIO;
   close(file);
   if (!good) unlink(path.c_str());
+  return error;
+}
+
+int append_to_file(const std::string& path, const std::string& text) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file < 0) return errno;
+  const int error = write_all(file, text) ? 0 : errno != 0 ? errno : EIO;
+  close(file);
   return error;
 }
 

@@ -62,6 +62,9 @@ std::string temporary_name(const std::string& path);
 // Makes the file `path`, which must not exist, and writes `text`; `durable` syncs it. Returns 0, or an error number; then no file is left.
 int write_new_file(const std::string& path, const std::string& text, bool durable);
 
+// Adds `text` to the end of the file `path`, which need not exist. Returns 0, or an error number.
+int append_to_file(const std::string& path, const std::string& text);
+
 // Writes `text` to the file that `path` is or points to, under temporary_name, and renames it; `durable` syncs in between. Throws Error (failure)
 // with the remedy.
 void write_whole_file(const std::string& path, const std::string& text, bool durable,

@@ -34,6 +34,13 @@ double fraction(double a, double b, double x) {
   return value;
 }
 
+// The regularized lower incomplete gamma function P(a, x): the series of 6.5.29, whose terms are all positive.
+double incomplete_gamma(double a, double x) {
+  double term = 1, sum = 1;
+  for (int n = 1; n <= MOST_TERMS && term > END * sum; ++n) sum += term *= x / (a + n);
+  return sum * std::exp(a * std::log(x) - x - log_gamma(a + 1));
+}
+
 }  // namespace
 
 double incomplete_beta(double a, double b, double x) {
@@ -49,6 +56,17 @@ double f_tail(double f, double above, double below) {
   if (std::isnan(f)) return f;  // no test, and not one that shows nothing
   if (!(f > 0)) return 1;
   return incomplete_beta(below / 2, above / 2, below / (below + above * f));
+}
+
+double chi_square_quantile(double p, double freedom) {
+  double low = 0, high = freedom;
+  // For an x far above a the series overflows, and NaN is not below p.
+  while (incomplete_gamma(freedom / 2, high / 2) < p) high *= 2;
+  while (high - low > 1e-10 * high) {
+    const double middle = low + (high - low) / 2;
+    (incomplete_gamma(freedom / 2, middle / 2) < p ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tail probabilities that significance tests need.
+// Tail probabilities that significance tests need, and a quantile for intervals.
 #pragma once
 
 namespace wholehand {
@@ -10,5 +10,8 @@ double incomplete_beta(double a, double b, double x);
 
 // P(F > f) of Fisher's F with these degrees of freedom. NaN gives NaN.
 double f_tail(double f, double above, double below);
+
+// The quantile of the chi-square distribution at p, 0 < p < 1, with `freedom` degrees of freedom, 1 to 1e4, to 1e-9 of itself.
+double chi_square_quantile(double p, double freedom);
 
 }  // namespace wholehand

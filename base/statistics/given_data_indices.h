@@ -35,6 +35,8 @@ class GivenDataIndices {
 
   std::size_t inputs() const { return inputs_; }
   std::size_t outputs() const { return outputs_.size(); }
+  // Entries that have this output.
+  std::size_t values(std::size_t output) const { return outputs_[output].values; }
 
   // NaN if the output has fewer than LEAST_VALUES values. 0 without an interval if the output does not vary by more than rounding
   // (base/statistics/moments.h).

@@ -11,17 +11,19 @@ namespace wholehand {
 namespace {
 
 constexpr std::size_t LEAST_PERCENT = 95;  // of the samples, that must have a value
+constexpr std::size_t ONE_OF = 40;         // repetitions lies below an interval of 95 %, and one above
 
-Interval interval_of_present(std::span<const double> present, std::size_t samples) {
-  return 100 * present.size() >= LEAST_PERCENT * samples ? percentile_interval(present) : Interval{};
-}
+bool are_enough(std::size_t present, std::size_t samples) { return 100 * present >= LEAST_PERCENT * samples; }
 
 }  // namespace
 
 Interval sample_interval(std::span<const double> values) {
   std::vector<double> present;
   std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double value) { return !std::isnan(value); });
-  return interval_of_present(present, values.size());
+  if (present.empty() || !are_enough(present.size(), values.size())) return {};
+  std::sort(present.begin(), present.end());
+  const std::size_t outside = std::max<std::size_t>(1, (present.size() + 1) / ONE_OF) - 1;
+  return {present[outside], present[present.size() - 1 - outside]};
 }
 
 std::vector<Interval> sample_intervals(const std::vector<std::vector<double>>& samples) {
@@ -50,7 +52,8 @@ std::vector<double> resampled_values(std::size_t population, std::size_t sample,
 
 Interval resampled_interval(std::size_t population, std::size_t sample, int resamples, std::uint64_t seed,
                             const std::function<double(std::span<const std::size_t>)>& statistic) {
-  return interval_of_present(resampled_values(population, sample, resamples, seed, statistic), static_cast<std::size_t>(resamples));
+  const std::vector<double> present = resampled_values(population, sample, resamples, seed, statistic);
+  return are_enough(present.size(), static_cast<std::size_t>(resamples)) ? percentile_interval(present) : Interval{};
 }
 
 }  // namespace wholehand

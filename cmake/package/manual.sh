@@ -14,6 +14,9 @@ trap 'rm -rf "$work"' EXIT
 ln -s -- "$(realpath -- "$1")" "$work/program"
 program=$work/program
 export LC_ALL=C.UTF-8 HOME="$work"
+# help2man prints the month of the making; the program's is the same in all makings
+: "${SOURCE_DATE_EPOCH:=$(stat -Lc %Y "$program")}"
+export SOURCE_DATE_EPOCH
 
 help_of() { "$program" "$@" --help; }
 commands_of() { help_of "$@" | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'; }

@@ -156,17 +156,24 @@ std::string stl_input(const MeshFile& file, std::string_view bytes) {
     return binary_of_ascii_stl(file, bytes);
   }
   if (bytes.size() == 84) file.refuse("has no triangle");
-  std::string copy(bytes);
-  std::fill_n(copy.begin(), 80, '\0');  // its header: any text, such as one that assimp would take for colors
-  return copy;
+  return std::string(bytes);
 }
 
 std::string obj_input(const MeshFile& file, std::string_view bytes) { return ObjShape(file, bytes).read(); }
 
 std::string assimp_input(const MeshFile& file, MeshFormat format, std::string_view bytes) {
-  return format == MeshFormat::stl   ? stl_input(file, bytes)
-         : format == MeshFormat::obj ? obj_input(file, bytes)
-                                     : ply_input(file, bytes);
+  switch (format) {
+    case MeshFormat::stl:
+      return stl_input(file, bytes);
+    case MeshFormat::ply:
+      return ply_input(file, bytes);
+    case MeshFormat::off:
+      return off_input(file, bytes);
+    case MeshFormat::collada:
+      return collada_input(file, bytes);
+    default:
+      return obj_input(file, bytes);
+  }
 }
 
 }  // namespace wholehand

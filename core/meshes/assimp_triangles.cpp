@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -88,18 +91,46 @@ void add_assimp_mesh(const MeshFile& file, const aiMesh& from, TriangleMesh& mes
   if (mesh.triangles.size() > MOST_TRIANGLES) file.refuse_size();
 }
 
-}  // namespace
+// A binary STL needs no parser: after 84 bytes, each triangle has 50, of which the corners are those from 12 to 47. assimp would take longer.
+TriangleMesh stl_triangles(const MeshFile& file, const std::string& bytes) {
+  constexpr std::size_t HEAD = 84, RECORD = 50, NORMAL = 12;
+  const std::size_t count = (bytes.size() - HEAD) / RECORD;
+  TriangleMesh mesh;
+  mesh.vertices.reserve(3 * count);
+  mesh.triangles.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<std::array<float, 3>, 3> corners{};
+    std::memcpy(&corners, bytes.data() + HEAD + i * RECORD + NORMAL, sizeof corners);
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    for (const auto& [x, y, z] : corners) {
+      for (const float number : {x, y, z})
+        if (!std::isfinite(number)) file.refuse(fmt::format("triangle {}: '{}' is no finite number", i + 1, number));
+      mesh.vertices.push_back({x, y, z});
+    }
+  }
+  return mesh;
+}
 
-TriangleMesh assimp_triangles(const MeshFile& file, MeshFormat format, const std::string& bytes) {
-  const std::string ending = format == MeshFormat::stl ? "stl" : format == MeshFormat::obj ? "obj" : "ply";
-  const std::string given = assimp_input(file, format, bytes), name = "mesh." + ending;
+TriangleMesh parsed_triangles(const MeshFile& file, const std::string& ending, const std::string& bytes) {
+  const std::string name = "mesh." + ending;
   Assimp::Importer importer;
   keep_reader(importer, ending);
-  importer.SetIOHandler(new OneFile(name, given));  // which the importer deletes
+  importer.SetIOHandler(new OneFile(name, bytes));  // which the importer deletes
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_ValidateDataStructure);
   if (scene == nullptr) file.refuse(fmt::format("cannot be read: {}", importer.GetErrorString()));
   TriangleMesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) add_assimp_mesh(file, *scene->mMeshes[i], mesh);
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh assimp_triangles(const MeshFile& file, MeshFormat format, const std::string& bytes) {
+  const std::string given = assimp_input(file, format, bytes);
+  TriangleMesh mesh = format == MeshFormat::stl ? stl_triangles(file, given)
+                                                : parsed_triangles(file, format == MeshFormat::ply ? "ply" : "obj", given);
+  mesh.says_what_is_up = format == MeshFormat::collada;
   for (const Triple& vertex : mesh.vertices) mesh.rounding = std::max(mesh.rounding, single_rounding(vertex));
   return mesh;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -22,34 +23,47 @@ namespace {
 
 constexpr double LEAST_THICKNESS = 1e-9;  // volume over area, of the largest extent: below it, rounding
 constexpr double LEAST_HEIGHT = 1e-12;    // of a triangle, of its longest edge: below it, rounding
+constexpr std::uint32_t NO_VERTEX = ~0u;
 
 glm::dvec3 corner_of(const TriangleMesh& mesh, std::uint32_t vertex) { return to_vec3(mesh.vertices[vertex]); }
 
 // The mesh with equal vertices joined and those that no triangle uses left out, nor triangles that are points or edges; the order is that of
 // the vertices' coordinates.
 TriangleMesh weld(const TriangleMesh& mesh, MeshFacts& facts) {
-  std::vector<bool> used(mesh.vertices.size());
+  struct KeptVertex {
+    Triple at;
+    std::uint32_t vertex;
+  };
+  EqualVertices equal(mesh.vertices);
+  std::vector<std::uint32_t> first(mesh.vertices.size(), NO_VERTEX);
+  std::vector<KeptVertex> kept;
   for (const auto& triangle : mesh.triangles) {
     if (is_point_or_edge(mesh, triangle)) continue;
-    for (const std::uint32_t corner : triangle) used[corner] = true;
+    for (const std::uint32_t corner : triangle) {
+      if (first[corner] != NO_VERTEX) continue;
+      first[corner] = equal.first_equal(corner);
+      if (first[corner] == corner) {
+        kept.push_back({mesh.vertices[corner], corner});
+      } else {
+        ++facts.joined_corners;
+      }
+    }
   }
-  std::vector<std::uint32_t> order;
-  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
-    if (used[i]) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return mesh.vertices[a] < mesh.vertices[b]; });
+  std::sort(kept.begin(), kept.end(), [](const KeptVertex& a, const KeptVertex& b) { return a.at < b.at; });
   TriangleMesh welded;
+  welded.vertices.reserve(kept.size());
   std::vector<std::uint32_t> place(mesh.vertices.size());
-  for (const std::uint32_t i : order) {
-    if (welded.vertices.empty() || welded.vertices.back() != mesh.vertices[i]) welded.vertices.push_back(mesh.vertices[i]);
-    place[i] = static_cast<std::uint32_t>(welded.vertices.size() - 1);
+  for (const auto& [at, vertex] : kept) {
+    place[vertex] = static_cast<std::uint32_t>(welded.vertices.size());
+    welded.vertices.push_back(at);
   }
+  welded.triangles.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
     const auto& [a, b, c] = triangle;
-    if (!is_point_or_edge(mesh, triangle)) welded.triangles.push_back({place[a], place[b], place[c]});
+    if (!is_point_or_edge(mesh, triangle)) welded.triangles.push_back({place[first[a]], place[first[b]], place[first[c]]});
   }
   facts.triangles = mesh.triangles.size();
   facts.zero_triangles = mesh.triangles.size() - welded.triangles.size();
-  facts.joined_corners = order.size() - welded.vertices.size();
   return welded;
 }
 
@@ -118,28 +132,35 @@ std::string span_text(const MeshFacts& facts, int axis) {
 }
 
 // Closes all holes, or says why not; unless the scene asks for that, only measures them.
-void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, MeshFacts& facts) {
+void note_holes(TriangleMesh& mesh, const std::string& name, bool closes, MeshFacts& facts) {
   const MeshHoles holes = find_holes(mesh);
   const double extent = largest_extent(facts);
-  for (const MeshHole& hole : holes.loops) {
-    facts.widest_hole = std::max(facts.widest_hole, hole.across);
-    if (close_holes && !is_small_hole(hole, extent))
-      throw usage_error(
-          fmt::format("{}: close_holes: a hole is {} mm across, its edge {} mm long, and at most {} and {} mm are closed: "
-                      "close it where the mesh was made, or leave out close_holes",
-                      name, millimeters(hole.across), millimeters(hole.length), millimeters(SMALL_HOLE * extent),
-                      millimeters(SMALL_HOLE_EDGE * extent)));
+  const HoleClosing closing = plan_closing(mesh, holes, extent);
+  double longest = 0;  // edge of a hole that stays open
+  for (const std::size_t i : closing.open) {
+    facts.widest_open_hole = std::max(facts.widest_open_hole, holes.loops[i].across);
+    longest = std::max(longest, holes.loops[i].length);
   }
-  if (close_holes && holes.loose_edges > 0)
+  if (closes && !closing.open.empty()) {
+    const bool is_one = closing.open.size() == 1;
+    throw usage_error(fmt::format(
+        "{}: close_holes: {} of {} {} neither flat nor small, up to {} mm across and {} mm along the edge, and at most {} "
+        "and {} mm are closed: close {} where the mesh was made, or leave out close_holes",
+        name, readable_number(closing.open.size()), counted(holes.loops.size(), "hole"), is_one ? "is" : "are",
+        millimeters(facts.widest_open_hole), millimeters(longest), millimeters(SMALL_HOLE * extent),
+        millimeters(SMALL_HOLE_EDGE * extent), is_one ? "it" : "them"));
+  }
+  if (closes && holes.loose_edges > 0)
     throw usage_error(
         fmt::format("{}: close_holes: {} form no loop, as {}: remove it where the mesh was made, or leave out close_holes", name,
                     counted(holes.loose_edges, "open edge"),
                     facts.non_manifold_edges > 0 ? "a surface meets others there" : "the surface has one side only"));
+  for (const MeshHole& hole : holes.loops) facts.widest_hole = std::max(facts.widest_hole, hole.across);
   facts.holes = holes.loops.size();
-  facts.closable = holes.loose_edges == 0 && std::all_of(holes.loops.begin(), holes.loops.end(),
-                                                         [&](const MeshHole& hole) { return is_small_hole(hole, extent); });
-  if (!close_holes) return;
-  for (const MeshHole& hole : holes.loops) close_hole(hole, mesh);
+  facts.open_holes = closing.open.size();
+  facts.closable = holes.loose_edges == 0 && closing.open.empty();
+  if (!closes) return;
+  close_holes(holes, closing, mesh);
   facts.closed_holes = std::exchange(facts.holes, 0);
   facts.widest_closed_hole = std::exchange(facts.widest_hole, 0);
 }
@@ -149,10 +170,13 @@ std::string holes_text(const MeshFacts& facts) {
   if (facts.holes == 0) return ": close them for a sure answer.";
   const std::string holes = fmt::format(": {}, up to {} mm across, ", counted(facts.holes, "hole"), millimeters(facts.widest_hole));
   if (facts.closable) return holes + "which close_holes = true closes.";
-  if (facts.widest_hole > SMALL_HOLE * largest_extent(facts))
-    return holes + fmt::format("more than the {} mm that close_holes closes: close them for a sure answer.",
-                               millimeters(SMALL_HOLE * largest_extent(facts)));
-  return holes + "which close_holes does not close, as an edge is too long or forms no loop: close them for a sure answer.";
+  if (facts.open_holes > 0)
+    return holes + fmt::format(
+                       "which close_holes does not close, as {}, up to {} mm across, {} neither flat nor small: close them for "
+                       "a sure answer.",
+                       readable_number(facts.open_holes), millimeters(facts.widest_open_hole),
+                       facts.open_holes == 1 ? "is" : "are");
+  return holes + "which close_holes does not close, as an edge forms no loop: close them for a sure answer.";
 }
 
 }  // namespace
@@ -192,7 +216,8 @@ CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool c
   measure_volume(checked.mesh, rim, facts);
   if (facts.has_sure_volume() && !(facts.volume > LEAST_THICKNESS * facts.area * largest_extent(facts)))
     throw usage_error(name +
-                      ": encloses no volume (a flat sheet, or surfaces that cancel), so it has no inside: give it a thickness");
+                      ": encloses no volume (a flat sheet, or surfaces that cancel), so it has no inside: give it a thickness in a "
+                      "modeling program");
   return checked;
 }
 
@@ -232,6 +257,7 @@ std::string mesh_check_text(const MeshFacts& facts) {
     text += fmt::format(" {} faced inward and {} turned outward.", counted(facts.turned_triangles, "triangle"),
                         was(facts.turned_triangles));
   }
+  if (facts.thickness > 0) text += fmt::format(" The sheet has walls of {} mm behind it.", millimeters(facts.thickness));
   if (facts.closes_nothing) text += " close_holes closes nothing: no edge is open.";
   if (facts.holes > 0 || (facts.open_edges > 0 && facts.odd_edges == 0 && facts.oriented))
     text += " What lies inside is judged by the winding number, which guesses across the holes" + holes_text(facts);

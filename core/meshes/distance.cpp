@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "base/text/error.h"
 #include "core/meshes/winding_tree.h"
@@ -28,6 +29,8 @@ namespace {
 // anything that Embree skips is then farther, and anything that it finds is computed in double.
 constexpr double SINGLE_SLACK = 0x1p-21;
 constexpr double THIN = 1e-24;         // squared: of the sine of a corner
+constexpr double FIRM = 1e-8;          // the same: from it on, rounding turns a triangle's normal by 1e-12 at most
+constexpr double DISK_SLACK = 1e-10;   // of a squared distance: rounding of the squares in it, which is 1e-11 with such normals
 constexpr double CLEARLY_OFF = 1e-14;  // of the squared distance: an edge seen from a point turns clearly to one side
 constexpr double COARSE_OPENING = 2, FINE_OPENING = 8;  // of clusters: to 0.06, to 0.001
 constexpr double WINDING_DOUBT = 0.06;
@@ -58,6 +61,30 @@ double triangle_distance_squared(const glm::dvec3& p, const glm::dvec3& a, const
   if (beyond_bc) nearest = std::min(nearest, segment_distance_squared(pb, bc));
   if (beyond_ca) nearest = std::min(nearest, segment_distance_squared(pc, ca));
   return nearest;
+}
+
+// A disk in a triangle's plane that contains it: about the mean of its corners. It is soon known to be too far away, as most
+// triangles are that a search comes by.
+struct TriangleDisk {
+  glm::dvec3 middle, normal;  // the normal has length 1; 0 for a thin triangle, which makes a ball of the disk
+  double radius;
+};
+
+TriangleDisk disk_about(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 middle = (a + b + c) / 3.0, normal = glm::cross(b - a, c - a);
+  const double squared = glm::dot(normal, normal), sides = glm::dot(b - a, b - a) * glm::dot(c - a, c - a);
+  const double radius = std::max({glm::length(a - middle), glm::length(b - middle), glm::length(c - middle)});
+  return {middle, squared > FIRM * sides ? normal / std::sqrt(squared) : glm::dvec3(0), radius};
+}
+
+// Whether the disk is farther from p than the square root of `squared`, even after rounding.
+bool is_beyond(const TriangleDisk& disk, const glm::dvec3& p, double squared) {
+  const glm::dvec3 from = p - disk.middle;
+  const double away = glm::dot(from, from), height = glm::dot(from, disk.normal);
+  const double room = squared - height * height + DISK_SLACK * away;  // for the square of the way along the plane
+  if (room < 0) return true;
+  const double reach = disk.radius + std::sqrt(room);
+  return away * (1 - DISK_SLACK) > height * height + reach * reach;
 }
 
 RayFrame frame_along(float x, float y, float z) {
@@ -95,10 +122,12 @@ struct MeshDistance::Parts {
   void build();
 
   const TriangleMesh& mesh;
+  std::vector<TriangleDisk> disks;  // of the triangles
   MeshSign sign;
   glm::dvec3 center;  // Embree's origin, so that its rounding is that of the mesh's size
   double extent;      // from there to the farthest corner of the box
   std::optional<WindingTree> winding;
+  std::optional<WindingRim> rim;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 };
@@ -153,6 +182,7 @@ struct MeshQueries {
 
   static bool closest(RTCPointQueryFunctionArguments* asked) {
     Closest& search = *static_cast<Closest*>(asked->userPtr);
+    if (is_beyond(search.parts.disks[asked->primID], search.p, search.squared)) return false;
     const double squared = search.parts.distance_squared(asked->primID, search.p);
     if (!(squared < search.squared)) return false;
     search.squared = squared;
@@ -196,7 +226,12 @@ MeshDistance::Parts::Parts(const CheckedMesh& checked)
       sign(sign_of(checked.facts)),
       center((to_vec3(checked.facts.low) + to_vec3(checked.facts.high)) / 2.0),
       extent(glm::length(to_vec3(checked.facts.high) - center)) {
-  if (sign == MeshSign::winding) winding.emplace(mesh);
+  disks.reserve(mesh.triangles.size());
+  for (unsigned i = 0; i < mesh.triangles.size(); ++i) disks.push_back(disk_about(corner(i, 0), corner(i, 1), corner(i, 2)));
+  if (sign == MeshSign::winding) {
+    winding.emplace(mesh);
+    rim.emplace(mesh);
+  }
   device = rtcNewDevice(nullptr);
   if (device == nullptr) throw failure_error("Embree cannot be started: " + embree_error(nullptr));
   try {
@@ -260,10 +295,7 @@ double MeshDistance::winding_number(const Triple& p) const {
 // A ray that passes too near an edge for a certain count is replaced by one in another direction. If all do, p lies on an edge, and either answer is
 // fine.
 bool MeshDistance::is_inside(const Triple& p) const {
-  if (parts_->winding) {
-    const double coarse = parts_->winding->winding_number(to_vec3(p), COARSE_OPENING);
-    return (std::abs(coarse - 0.5) > WINDING_DOUBT ? coarse : winding_number(p)) > 0.5;
-  }
+  if (parts_->winding) return side(p).is_inside;
   const glm::dvec3 there = to_vec3(p) - parts_->center;
   bool inside = false;
   for (const RayFrame& frame : ray_frames()) {
@@ -284,6 +316,17 @@ bool MeshDistance::is_inside(const Triple& p) const {
     if (!ray.doubtful) break;
   }
   return inside;
+}
+
+MeshSide MeshDistance::side(const Triple& p) const {
+  if (!parts_->winding) return {is_inside(p), std::numeric_limits<double>::infinity()};
+  double winding = parts_->winding->winding_number(to_vec3(p), COARSE_OPENING);
+  if (!(std::abs(winding - 0.5) > WINDING_DOUBT)) winding = winding_number(p);
+  return {winding > 0.5, std::abs(winding - 0.5) - WINDING_DOUBT};
+}
+
+double MeshDistance::winding_slope(const Triple& p, double radius) const {
+  return parts_->rim ? parts_->rim->slope(to_vec3(p), radius) : 0;
 }
 
 double MeshDistance::signed_distance(const Triple& p) const {

@@ -17,6 +17,11 @@ enum class MeshSign {
   winding     // open: generalized winding number above one half
 };
 
+struct MeshSide {
+  bool is_inside = false;
+  double room = 0;  // by how much the winding number may change before the side may be the other one; infinite for a closed mesh
+};
+
 // Any number of threads may ask at once.
 class MeshDistance {
  public:
@@ -32,6 +37,10 @@ class MeshDistance {
   // The unsigned distance, >= 0. `nearest`: on input a nearby triangle's number, from 0, which shortens the search; on return the nearest one's.
   double distance(const Triple& p, std::uint32_t& nearest) const;
   bool is_inside(const Triple& p) const;
+  MeshSide side(const Triple& p) const;
+  // The largest change of the winding number per m within `radius` of p, except where it jumps: on the surface. 0 for a closed mesh; infinite at the
+  // edge of an open one, or if it has too many open edges to ask.
+  double winding_slope(const Triple& p, double radius) const;
   // The solid angle in which p sees the surface's inside, over 4 pi: for a closed mesh 1 inside and 0 outside, for an open one to 1e-3.
   double winding_number(const Triple& p) const;
 

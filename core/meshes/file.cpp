@@ -21,15 +21,32 @@ namespace wholehand {
 namespace {
 
 constexpr std::size_t LONGEST_LINE = 600;
-constexpr std::array<const char*, 4> FORMAT_NAMES{"glTF", "STL", "OBJ", "PLY"};
+constexpr std::array<const char*, 6> FORMAT_NAMES{"glTF", "STL", "OBJ", "PLY", "OFF", "Collada"};
 
-std::optional<MeshFormat> format_of_name(const std::string& path) {
+// A program, and endings of what it converts; a blank after each.
+struct Converter {
+  const char* program;
+  std::string_view endings;
+};
+constexpr std::array CONVERTERS{Converter{"Blender", ".fbx .blend .abc .usd .usda .usdc .usdz "},
+                                Converter{"FreeCAD", ".step .stp .iges .igs .brep .fcstd "},
+                                Converter{"MeshLab", ".3mf .3ds .wrl .x3d "}};
+
+// In small letters.
+std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+std::optional<MeshFormat> format_of_name(const std::string& path) {
+  const std::string ending = ending_of(path);
   if (ending == ".glb" || ending == ".gltf") return MeshFormat::gltf;
   if (ending == ".stl") return MeshFormat::stl;
   if (ending == ".obj") return MeshFormat::obj;
   if (ending == ".ply") return MeshFormat::ply;
+  if (ending == ".off") return MeshFormat::off;
+  if (ending == ".dae") return MeshFormat::collada;
   return {};
 }
 
@@ -43,9 +60,21 @@ std::optional<MeshFormat> format_of(FileKind kind) {
       return MeshFormat::obj;
     case FileKind::ply:
       return MeshFormat::ply;
+    case FileKind::off:
+      return MeshFormat::off;
+    case FileKind::collada:
+      return MeshFormat::collada;
     default:
       return {};
   }
+}
+
+void refuse_convertible(const MeshFile& file) {
+  const std::string ending = ending_of(file.path);
+  for (const Converter& converter : CONVERTERS)
+    if (ending.size() > 1 && converter.endings.find(ending + " ") != std::string_view::npos)
+      file.refuse(
+          fmt::format("is {}, which is not read: convert it to glTF or STL, for example with {}", ending, converter.program));
 }
 
 }  // namespace
@@ -90,9 +119,11 @@ std::string mesh_bytes(const MeshFile& file) {
 MeshFormat mesh_format(const MeshFile& file, std::string_view bytes) {
   const FileKind kind = file_kind(bytes, bytes.size());
   const std::optional<MeshFormat> named = format_of_name(file.path), seen = format_of(kind);
+  // some are archives
+  if (!seen && (kind == FileKind::unknown || kind == FileKind::archive)) refuse_convertible(file);
   if (!seen && kind != FileKind::unknown) file.refuse(wrong_kind(kind, "a mesh"));
   if (!named && !seen)
-    file.refuse("is no mesh that is read: neither its name nor its first bytes are those of glTF, STL, OBJ or PLY");
+    file.refuse("is no mesh that is read: neither its name nor its first bytes are those of glTF, STL, OBJ, PLY, OFF or Collada");
   if (named && seen && *named != *seen)
     file.refuse(fmt::format("is named as {} and holds {}: give it the ending of what it holds",
                             FORMAT_NAMES[static_cast<int>(*named)], FORMAT_NAMES[static_cast<int>(*seen)]));

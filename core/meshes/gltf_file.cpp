@@ -18,6 +18,7 @@
 #include "base/text/error.h"
 #include "base/text/readable.h"
 #include "core/file_kind.h"
+#include "core/meshes/gltf_compression.h"
 
 namespace wholehand {
 namespace {
@@ -45,8 +46,13 @@ constexpr GltfField NODE_FIELDS[]{{"mesh", integer},  {"skin", integer},        
                                   {"scale", numbers}, {"translation", numbers}, {"rotation", numbers}};
 constexpr GltfField ATTRIBUTE_FIELDS[]{{"POSITION", integer}};
 constexpr GltfField TARGET_FIELDS[]{{"POSITION", integer}};
-constexpr GltfField PRIMITIVE_FIELDS[]{
-    {"attributes", table, ATTRIBUTE_FIELDS}, {"indices", integer}, {"mode", integer}, {"targets", tables, TARGET_FIELDS}};
+constexpr GltfField DRACO_FIELDS[]{{"bufferView", integer}, {"attributes", table, ATTRIBUTE_FIELDS}};
+constexpr GltfField PRIMITIVE_EXTENSION_FIELDS[]{{"KHR_draco_mesh_compression", table, DRACO_FIELDS}};
+constexpr GltfField PRIMITIVE_FIELDS[]{{"attributes", table, ATTRIBUTE_FIELDS},
+                                       {"indices", integer},
+                                       {"mode", integer},
+                                       {"targets", tables, TARGET_FIELDS},
+                                       {"extensions", table, PRIMITIVE_EXTENSION_FIELDS}};
 constexpr GltfField MESH_FIELDS[]{{"name", text}, {"primitives", tables, PRIMITIVE_FIELDS}};
 constexpr GltfField SPARSE_INDEX_FIELDS[]{{"bufferView", integer}, {"byteOffset", integer}, {"componentType", integer}};
 constexpr GltfField SPARSE_VALUE_FIELDS[]{{"bufferView", integer}, {"byteOffset", integer}};
@@ -55,8 +61,17 @@ constexpr GltfField SPARSE_FIELDS[]{
 constexpr GltfField ACCESSOR_FIELDS[]{
     {"bufferView", integer}, {"byteOffset", integer}, {"componentType", integer},      {"count", integer},
     {"type", text},          {"normalized", flag},    {"sparse", table, SPARSE_FIELDS}};
-constexpr GltfField VIEW_FIELDS[]{{"buffer", integer}, {"byteOffset", integer}, {"byteLength", integer}, {"byteStride", integer}};
-constexpr GltfField BUFFER_FIELDS[]{{"uri", text}, {"byteLength", integer}};
+constexpr GltfField MESHOPT_FIELDS[]{{"buffer", integer}, {"byteOffset", integer}, {"byteLength", integer}, {"byteStride", integer},
+                                     {"count", integer},  {"mode", text},          {"filter", text}};
+constexpr GltfField VIEW_EXTENSION_FIELDS[]{{"EXT_meshopt_compression", table, MESHOPT_FIELDS}};
+constexpr GltfField VIEW_FIELDS[]{{"buffer", integer},
+                                  {"byteOffset", integer},
+                                  {"byteLength", integer},
+                                  {"byteStride", integer},
+                                  {"extensions", table, VIEW_EXTENSION_FIELDS}};
+constexpr GltfField FALLBACK_FIELDS[]{{"fallback", flag}};
+constexpr GltfField BUFFER_EXTENSION_FIELDS[]{{"EXT_meshopt_compression", table, FALLBACK_FIELDS}};
+constexpr GltfField BUFFER_FIELDS[]{{"uri", text}, {"byteLength", integer}, {"extensions", table, BUFFER_EXTENSION_FIELDS}};
 constexpr GltfField GLTF_FIELDS[]{{"asset", table, ASSET_FIELDS},       {"scene", integer},
                                   {"scenes", tables, SCENE_FIELDS},     {"nodes", tables, NODE_FIELDS},
                                   {"meshes", tables, MESH_FIELDS},      {"accessors", tables, ACCESSOR_FIELDS},
@@ -230,15 +245,16 @@ void refuse_extensions(const MeshFile& file, const GltfJson& root) {
     if (names == root.end() || !names->is_array()) continue;
     for (const GltfJson& entry : *names) {
       const std::string name = entry.is_string() ? entry.get<std::string>() : "?";
-      if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression")
-        file.refuse(fmt::format("is compressed ({}), which is not read: export it without compression", name));
+      if (name == "KHR_meshopt_compression")
+        file.refuse(fmt::format("is compressed ({}), which is not read: export it with EXT_meshopt_compression, or without", name));
       // they change the surface, and files may use them without requiring them
       if (name == "EXT_mesh_gpu_instancing")
         file.refuse(fmt::format("has instances ({}), which are not read: make them real, then export", name));
       if (name == "KHR_node_visibility")
         file.refuse(
             fmt::format("has nodes that may be hidden ({}), which is not read: remove what is hidden, export it without", name));
-      const bool is_read = name == "KHR_mesh_quantization" || only_looks(name);
+      const bool is_read = name == "KHR_mesh_quantization" || name == "KHR_draco_mesh_compression" ||
+                           name == "EXT_meshopt_compression" || only_looks(name);
       if (list == std::string_view("extensionsRequired") && !is_read)
         file.refuse(fmt::format("requires the extension {}, which is not read: export it without", name));
     }
@@ -348,12 +364,15 @@ tinygltf::Model load_gltf(const MeshFile& file, const std::string& json, std::st
 tinygltf::Model read_gltf(const MeshFile& file, std::string_view bytes) {
   const GltfChunks chunks = chunks_of(file, bytes);
   GltfJson root = parse_gltf(file, chunks.json);
-  const GltfJson trimmed = GltfTrim(file).trimmed(root);
+  GltfJson trimmed = GltfTrim(file).trimmed(root);
   refuse_version(file, trimmed);
   refuse_extensions(file, root);
+  const GltfCompression compression = take_compression(trimmed);
   refuse_buffers(file, trimmed, chunks.is_binary && !chunks.binary.empty());
   root = nullptr;
-  return load_gltf(file, json_text(trimmed), chunks.binary);
+  tinygltf::Model model = load_gltf(file, json_text(trimmed), chunks.binary);
+  decompress(file, compression, model);
+  return model;
 }
 
 }  // namespace wholehand

@@ -33,6 +33,11 @@ bool is_held(const Triple& numbers, double unit = 1) {
   return size >= LEAST_HELD * (1 - ROUNDED) && size <= MOST_HELD * (1 + ROUNDED) && least <= WIDEST_GRASP * (1 + ROUNDED);
 }
 
+// By how many factors of e the largest extent is off the usual one.
+double off_usual(const Triple& numbers, const LengthUnit& unit) {
+  return std::abs(std::log(unit.meters * largest(numbers) / USUAL_SIZE));
+}
+
 std::string length_text(double length) { return length >= 1 ? plain_text(length, 4) + " m" : plain_text(1e3 * length, 4) + " mm"; }
 
 // The key of a scene that turns a direction of the mesh up (docs/mesh.md, "Frames").
@@ -54,20 +59,25 @@ const char* key_that_raises(Side side) {
   return "";
 }
 
-const char* name_of(Side side) {
+}  // namespace
+
+const char* side_name(Side side) {
   constexpr std::array NAMES{"-x", "+x", "-y", "+y", "-z", "+z"};
   return NAMES[static_cast<std::size_t>(side)];
 }
-
-}  // namespace
 
 std::vector<LengthUnit> graspable_units(const Triple& numbers) {
   std::vector<LengthUnit> units;
   for (const LengthUnit& unit : UNITS)
     if (is_held(numbers, unit.meters)) units.push_back(unit);
-  const auto off = [&](const LengthUnit& unit) { return std::abs(std::log(unit.meters * largest(numbers) / USUAL_SIZE)); };
-  std::stable_sort(units.begin(), units.end(), [&](const LengthUnit& a, const LengthUnit& b) { return off(a) < off(b); });
+  std::stable_sort(units.begin(), units.end(),
+                   [&](const LengthUnit& a, const LengthUnit& b) { return off_usual(numbers, a) < off_usual(numbers, b); });
   return units;
+}
+
+LengthUnit nearest_unit(const Triple& numbers) {
+  return *std::min_element(UNITS.begin(), UNITS.end(),
+                           [&](const LengthUnit& a, const LengthUnit& b) { return off_usual(numbers, a) < off_usual(numbers, b); });
 }
 
 SizeHint mesh_size_hint(const Triple& size, double scale) {
@@ -119,7 +129,7 @@ std::string posture_hint(const TriangleMesh& mesh, const MeshFacts& facts) {
   const std::optional<Side> open = open_side(mesh, facts);
   if (open) {
     if (*open == Side::up) return "";
-    return fmt::format("its open side faces {}, and +y is up: if it lies on its side, {} stands it up", name_of(*open),
+    return fmt::format("its open side faces {}, and +y is up: if it lies on its side, {} stands it up", side_name(*open),
                        key_that_raises(*open));
   }
   const Triple size = facts.size();

@@ -19,6 +19,9 @@ struct LengthUnit {
 // large, one side that a hand can span, and no smaller than 20 mm. The likeliest first: nearest to 150 mm.
 std::vector<LengthUnit> graspable_units(const Triple& numbers);
 
+// The unit in which the largest extent is nearest to that, whether or not a hand can hold the body then.
+LengthUnit nearest_unit(const Triple& numbers);
+
 struct SizeHint {
   std::string text;            // a sentence with the likely scales; empty if a hand can hold the mesh
   bool is_other_unit = false;  // the scale is probably a mistake: another unit fits, or the mesh is beyond 10 m or below 2 mm
@@ -29,6 +32,9 @@ SizeHint mesh_size_hint(const Triple& size, double scale = 1);
 
 // Directions along the axes: -x, +x, -y, +y, -z, +z.
 enum class Side { left, right, down, up, back, front };
+
+// "+x" and the like.
+const char* side_name(Side side);
 
 // The direction in which a mesh is open: the only one in which the way out from its middle is free. None if there is none.
 std::optional<Side> open_side(const TriangleMesh& mesh, const MeshFacts& facts);

@@ -15,12 +15,12 @@
 #include "base/numbers/half.h"
 #include "base/numbers/parallel.h"
 #include "base/numbers/random_bits.h"
-#include "base/system/clock.h"
 #include "base/text/error.h"
 #include "base/text/readable.h"
 #include "core/lattice.h"
 #include "core/load.h"
 #include "core/meshes/distance.h"
+#include "core/meshes/sampling.h"
 #include "core/sdf.h"
 #include "core/vectors.h"
 #include "shaders/layout.h"
@@ -28,14 +28,12 @@
 namespace wholehand {
 namespace {
 
-constexpr double BESIDE = 1e-6;                                   // of a triangle's size: how far off a side of it is probed
-constexpr double COARSEST_CELLS = 24;                             // along the longest side: where the search for a spacing starts
-constexpr double SPACING_STEP = 1.25;                             // from one try to the next
-constexpr double FEWEST_SAMPLES = 6 * 6 * 6;                      // with which lay_lattice lays any
-constexpr double SAME_SPACING = 1e-4;                             // relative: finer is not sought
-constexpr double FAR_FOR_HALVES = 32;                             // m: half of what they hold, as a lattice reaches beyond its mesh
-constexpr double TIMED_SECONDS = 0.2;                             // of a lattice's work, before its time is estimated
-constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels count in 32 bits
+constexpr double BESIDE = 1e-6;               // of a triangle's size: how far off a side of it is probed
+constexpr double COARSEST_CELLS = 24;         // along the longest side: where the search for a spacing starts
+constexpr double SPACING_STEP = 1.25;         // from one try to the next
+constexpr double FEWEST_SAMPLES = 6 * 6 * 6;  // with which lay_lattice lays any
+constexpr double SAME_SPACING = 1e-4;         // relative: finer is not sought
+constexpr double FAR_FOR_HALVES = 32;         // m: half of what they hold, as a lattice reaches beyond its mesh
 
 // Random points of the surface with uniform density; the same ones each time. Where bodies overlap, interior points are left out: nobody touches
 // them, and the distance is not 0 there.
@@ -99,12 +97,7 @@ PreparedLattice lay_lattice(const MeshFacts& facts, const LatticeSpec& spec, dou
 
 bool lattice_fits(const PreparedLattice& lattice, const LatticeSpec& spec) {
   const double words = lattice.halves ? std::ceil(samples_of(lattice) / 2) : samples_of(lattice);
-  return samples_of(lattice) <= MOST_SAMPLES && 4 * words <= static_cast<double>(spec.most_bytes);
-}
-
-Triple lattice_place(const PreparedLattice& lattice, int i, int j, int k) {
-  return {lattice.origin[0] + lattice.spacing * i, lattice.origin[1] + lattice.spacing * j,
-          lattice.origin[2] + lattice.spacing * k};
+  return samples_of(lattice) <= spec.most_samples && 4 * words <= static_cast<double>(spec.most_bytes);
 }
 
 // The finest lattice that fits, between one that does and a smaller spacing that does not.
@@ -194,6 +187,21 @@ PreparedLattice choose_lattice(const MeshDistance& distance, const MeshFacts& fa
   return lattice;
 }
 
+// Replaces a lattice by the finest one that is forecast to take no longer than `most_seconds`, but by none coarser than that with which
+// the search for a spacing starts: this one may take longer.
+void give_way(const MeshFacts& facts, const LatticeSpec& spec, double most_seconds, LatticePlan& plan) {
+  bool at_limit = false;
+  PreparedLattice quick = coarsest_lattice(facts, spec, at_limit);
+  LatticeSpec limited = spec;
+  limited.most_samples = samples_of(plan.lattice) * most_seconds / plan.seconds;
+  if (lattice_fits(quick, limited)) quick = finest_lattice(facts, limited, quick, plan.lattice.spacing);
+  if (!(quick.spacing > plan.lattice.spacing)) return;
+  plan.finer = plan.lattice;
+  plan.finer_seconds = plan.seconds;
+  plan.seconds *= samples_of(quick) / samples_of(plan.lattice);
+  plan.lattice = quick;
+}
+
 PreparedLattice given_lattice(const MeshFacts& facts, const LatticeSpec& spec) {
   const PreparedLattice lattice = lay_lattice(facts, spec, *spec.spacing);
   if (lattice_fits(lattice, spec)) return lattice;
@@ -205,82 +213,11 @@ PreparedLattice given_lattice(const MeshFacts& facts, const LatticeSpec& spec) {
       1e3 * least * (1 + 5 * SAME_SPACING)));
 }
 
-// One row of samples along x. The triangle nearest to one sample is near to the next; and if a closed surface is farther away than the next sample,
-// that sample is on the same side.
-void sample_row(const MeshDistance& distance, const PreparedLattice& lattice, int j, int k, std::vector<float>& row) {
-  const bool keeps_side = distance.sign() != MeshSign::winding;
-  std::uint32_t nearest = 0;
-  double away = 0;
-  bool inside = false;
-  for (int i = 0; i < lattice.nx; ++i) {
-    const Triple p = lattice_place(lattice, i, j, k);
-    const bool same_side = i > 0 && keeps_side && away > lattice.spacing * (1 + 1e-6);
-    away = distance.distance(p, nearest);
-    if (!same_side) inside = distance.is_inside(p);
-    row[i] = static_cast<float>(inside ? -away : away);
-  }
-}
-
-// Halves of two rows may share a word, and rows are taken by different threads.
-void store_row(const std::vector<float>& row, std::size_t first, bool halves, std::vector<std::uint32_t>& words) {
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const std::size_t at = first + i;
-    std::atomic_ref<std::uint32_t> word(words[word_index(at, halves)]);
-    word.fetch_or(sample_bits(row[i], at, halves), std::memory_order_relaxed);
-  }
-}
-
-void sample_lattice(const MeshDistance& distance, PreparedLattice& lattice, int threads, const LatticeProgress& progress) {
-  const auto nx = static_cast<std::size_t>(lattice.nx), all = nx * lattice.ny * lattice.nz;
-  std::vector<std::uint32_t> words(lattice_words(all, lattice.halves));
-  const auto sample_plane = [&](std::size_t k) {
-    std::vector<float> row(nx);
-    for (int j = 0; j < lattice.ny; ++j) {
-      sample_row(distance, lattice, j, static_cast<int>(k), row);
-      store_row(row, (k * lattice.ny + j) * nx, lattice.halves, words);
-    }
-  };
-  const auto planes = static_cast<std::size_t>(lattice.nz);
-  std::function<void(std::size_t)> report_planes;
-  if (progress) report_planes = [&](std::size_t done) { progress(static_cast<double>(done) / static_cast<double>(planes)); };
-  in_parallel(planes, threads, sample_plane, report_planes);
-  lattice.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
-}
-
-// Takes rows from all over the lattice, one per thread and then twice as many each time, until they took TIMED_SECONDS or are a 32nd of all, and
-// extrapolates the total time. The samples are not kept.
-double seconds_of_rows(const MeshDistance& distance, const PreparedLattice& lattice, int threads,
-                       const std::function<double()>& clock) {
-  const auto now = [&] { return clock ? clock() : monotonic_now(); };
-  const std::size_t all = static_cast<std::size_t>(lattice.ny) * lattice.nz,
-                    step = static_cast<std::size_t>(0.618 * static_cast<double>(all)) | 1u;
-  const auto take_row = [&](std::size_t number) {
-    std::vector<float> row(lattice.nx);
-    const std::size_t place = number * step % all;
-    sample_row(distance, lattice, static_cast<int>(place % lattice.ny), static_cast<int>(place / lattice.ny), row);
-  };
-  const double start = now();
-  double seconds = 0;
-  std::size_t done = 0;
-  for (std::size_t more = thread_count(threads); done < all; more = std::min(2 * more, all - done)) {
-    more = std::min(more, all - done);
-    in_parallel(more, threads, [&](std::size_t i) { take_row(done + i); });
-    done += more;
-    seconds = now() - start;
-    if (seconds >= TIMED_SECONDS || 32 * done >= all) break;
-  }
-  return forecast_seconds(done, all, seconds);
-}
-
 }  // namespace
 
 std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeSpec& spec, double spacing) {
   const PreparedLattice lattice = lay_lattice(facts, spec, spacing);
   return lattice_fits(lattice, spec) ? std::optional(lattice) : std::nullopt;
-}
-
-double forecast_seconds(std::size_t done, std::size_t all, double seconds) {
-  return done > 0 ? seconds * static_cast<double>(all) / static_cast<double>(done) : 0;
 }
 
 MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeSpec& spec,
@@ -289,8 +226,20 @@ MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mes
   MeshLattice made;
   made.lattice =
       spec.spacing ? given_lattice(mesh.facts, spec) : choose_lattice(distance, mesh.facts, points, spec, progress, made.at_limit);
-  if (forecast.say) forecast.say(made.lattice, seconds_of_rows(distance, made.lattice, spec.threads, forecast.clock));
-  sample_lattice(distance, made.lattice, spec.threads, progress);
+  std::optional<LatticeSampler> sampler;
+  sampler.emplace(distance, made.lattice, spec.threads);
+  const bool is_limited = !spec.spacing && forecast.most_seconds < std::numeric_limits<double>::infinity();
+  if (forecast.say || is_limited) {
+    LatticePlan plan{made.lattice, sampler->forecast(forecast.clock), {}, 0};
+    if (is_limited && plan.seconds > forecast.most_seconds) give_way(mesh.facts, spec, forecast.most_seconds, plan);
+    if (plan.finer) {
+      made.lattice = plan.lattice;
+      made.at_limit = true;
+      sampler.emplace(distance, made.lattice, spec.threads);
+    }
+    if (forecast.say) forecast.say(plan);
+  }
+  made.lattice.words = std::make_shared<const std::vector<std::uint32_t>>(sampler->take_all(progress));
   const core_f64::Lattice lattice = core_f64::load_lattice(made.lattice);
   made.error = largest_error(points, spec.threads, [&](const Triple& p) {
     return core_f64::lattice_distance(lattice, {p[0], p[1], p[2]});

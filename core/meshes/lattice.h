@@ -4,14 +4,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "core/meshes/check.h"
+#include "core/meshes/sampling.h"
 #include "core/prepare.h"
 
 namespace wholehand {
-
-class MeshDistance;  // core/meshes/distance.h
 
 // The specification of a lattice.
 struct LatticeSpec {
@@ -24,13 +24,14 @@ struct LatticeSpec {
   // Upper limit on sample memory: what memory and the device's largest buffer allow. Uses installed, not free, memory so that the
   // lattice is reproducible.
   std::size_t most_bytes = 512u << 20;
-  int threads = 0;  // 0: all cores
+  double most_samples = std::numeric_limits<int>::max();  // the kernels count in 32 bits
+  int threads = 0;                                        // 0: all cores
 };
 
 struct MeshLattice {
   PreparedLattice lattice;
   double error = 0;       // m: the largest absolute trilinear value at random points of the outer surface, where it should be 0
-  bool at_limit = false;  // `most_bytes` limited the spacing: with more it would be smaller
+  bool at_limit = false;  // memory or time limited the spacing: with more it would be smaller
 };
 
 constexpr int SURFACE_SAMPLES = 4096;  // points of the surface at which a lattice's error is measured
@@ -38,22 +39,27 @@ constexpr int SURFACE_SAMPLES = 4096;  // points of the surface at which a latti
 // The places and bits of a lattice's samples with this spacing (m, > 0), without the samples; none if it does not fit.
 std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeSpec& spec, double spacing);
 
-// Called with the finished share of the work, 0 to 1, ascending, on the thread that requested the work; 0 while a spacing is sought. An exception
-// from it ends the work.
-using LatticeProgress = std::function<void(double share)>;
-
-// Estimates the total time (s), given that `done` of `all` parts took `seconds`.
-double forecast_seconds(std::size_t done, std::size_t all, double seconds);
+// A lattice before its samples are taken.
+struct LatticePlan {
+  PreparedLattice lattice;
+  double seconds = 0;                    // forecast
+  std::optional<PreparedLattice> finer;  // the one that the tolerance asks for, if that takes longer than is allowed
+  double finer_seconds = 0;              // of that one
+};
 
 // Predicts the time for the samples of a lattice by timing some of its rows first.
 struct LatticeForecast {
-  std::function<void(const PreparedLattice& lattice, double seconds)> say;  // called once, before sampling; may be empty
-  std::function<double()> clock;                                            // s, ascending; empty: the machine's
+  std::function<void(const LatticePlan& plan)> say;  // called once, before sampling; may be empty
+  std::function<double()> clock;                     // s, ascending; empty: the machine's
+  // Without a given spacing, the finest lattice is taken that is predicted to take no longer, but none coarser than that with which the
+  // search for a spacing starts.
+  double most_seconds = std::numeric_limits<double>::infinity();
 };
 
-// A lattice laid out as by core/prepare.h's prepare_lattice, but only as wide in x, y and z as the mesh is. Without a given spacing, it is the widest
-// lattice whose error, including rounding to 16 bits, stays below the tolerance, or the finest that fits `most_bytes`; then `error` may exceed the
-// tolerance. If 16 bits are requested, distances are clamped to 63.97 m. Throws Error (usage) if the given spacing, or any, does not fit.
+// A lattice laid out as by core/prepare.h's prepare_lattice, but only as wide in x, y and z as the mesh is. Without a given spacing,
+// it is the widest lattice whose error, including rounding to 16 bits, stays below the tolerance, or the finest that fits `most_bytes`
+// and `forecast.most_seconds`; then `error` may exceed the tolerance. If 16 bits are requested, distances are clamped to 63.97 m. Throws
+// Error (usage) if the given spacing, or any, does not fit.
 MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeSpec& spec,
                             const LatticeProgress& progress = {}, const LatticeForecast& forecast = {});
 

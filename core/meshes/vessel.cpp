@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <istream>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -19,9 +20,11 @@
 #include "base/text/readable.h"
 #include "core/load.h"
 #include "core/meshes/cache.h"
+#include "core/meshes/cavity_finder.h"
 #include "core/meshes/check.h"
 #include "core/meshes/hints.h"
 #include "core/meshes/mesh.h"
+#include "core/meshes/sheet.h"
 
 namespace wholehand {
 namespace {
@@ -31,6 +34,8 @@ constexpr double ROUNDED_OUTLINE = 0.1e-3;
 
 constexpr double OTHER_VOLUME = 0.05;  // of the mesh's: the lattice's volume is then another one, not a coarse one
 
+constexpr double OFF_AXIS = 0.1e-3;  // m: a cavity is about the vessel's axis, to the tenths in which outlines are written
+
 constexpr std::size_t OFF_SCALE_LATTICE = 4u << 20;   // bytes
 constexpr double LONG_WORK = 10, LONG_OPEN_WORK = 3;  // s
 
@@ -39,34 +44,101 @@ constexpr double OTHER_SIDE = 0.05;
 // How far a cavity's wall may be from that of a hollow mesh: m, or a share of its radius if that is more. Cups are drawn with
 // rounded numbers.
 constexpr double OFF_WALL = 3e-3, OFF_WALL_SHARE = 0.1;
+// How far such a wall may be in the glass, m, for the same reason: the liquid would weigh more than there is room for.
+constexpr double MOST_IN_WALL = 1e-3;
 
-// How many of the points between axis and wall of a cavity lie within the mesh.
+// A place of a cavity's wall, m, and how far it is from where it should be.
+struct WallPlace {
+  double off = 0, radius = 0, height = 0;
+
+  void keep_farthest(double away, double r, double y) {
+    if (away > off) *this = {away, r, y};
+  }
+};
+
+std::string place_text(const WallPlace& place) {
+  return fmt::format("at a height of {:.4g} mm and a radius of {:.4g} mm", 1e3 * place.height, 1e3 * place.radius);
+}
+
+// Calls `visit(radius, height)` at some heights of each piece of a cavity's wall.
+template <class Visit>
+void for_each_height(const std::vector<PreparedElement>& cavity, const Visit& visit) {
+  constexpr int HEIGHTS = 16;
+  for (const PreparedElement& piece : cavity)
+    for (int h = 0; h < HEIGHTS; ++h) {
+      const double y = piece.a[1] + (piece.b[1] - piece.a[1]) * (h + 0.5) / HEIGHTS;
+      visit(core_f64::element_radius(core_f64::load_element(piece), y), y);
+    }
+}
+
+bool is_far(double distance, double radius) { return distance > std::max(OFF_WALL, OFF_WALL_SHARE * radius); }
+
+// How many of the points between axis and wall of a cavity lie within the mesh, by its lattice, and the worst places of the wall.
 struct CavityPoints {
   int inside = 0, all = 0;
-  int off_wall = 0, of_wall = 0;  // points of the cavity's wall itself: further from the glass than its inner wall may be; all
+  int far = 0, wall = 0;  // points of the wall: further from the glass than its inner wall may be; all
+  WallPlace deepest;      // in the glass, of the wall and what is within it
+  WallPlace farthest;     // from the glass, of the wall
 };
 
 CavityPoints count_cavity_points(const PreparedLattice& prepared, const std::vector<PreparedElement>& cavity) {
   const core_f64::Lattice lattice = core_f64::load_lattice(prepared);
   CavityPoints points;
-  constexpr int HEIGHTS = 16, AZIMUTHS = 8;  // of each piece
-  for (const PreparedElement& piece : cavity) {
-    for (int h = 0; h < HEIGHTS; ++h) {
-      const double y = piece.a[1] + (piece.b[1] - piece.a[1]) * (h + 0.5) / HEIGHTS;
-      const double wall = core_f64::element_radius(core_f64::load_element(piece), y);
-      for (int k = 0; k < AZIMUTHS; ++k) {
-        const double azimuth = 2 * PI * (k + 0.5) / AZIMUTHS;
-        const auto distance_at = [&](double r) {
-          return core_f64::lattice_distance(lattice, {r * std::cos(azimuth), y, r * std::sin(azimuth)});
-        };
-        for (const double share : {0.5, 0.9}) points.inside += distance_at(share * wall) < 0;
-        points.all += 2;
-        points.off_wall += distance_at(wall) > std::max(OFF_WALL, OFF_WALL_SHARE * wall);
-        ++points.of_wall;
+  for_each_height(cavity, [&](double wall, double y) {
+    constexpr int AZIMUTHS = 8;
+    for (int k = 0; k < AZIMUTHS; ++k) {
+      const double azimuth = 2 * PI * (k + 0.5) / AZIMUTHS;
+      for (const double share : {0.5, 0.9, 1.0}) {
+        const double r = share * wall;
+        const double distance = core_f64::lattice_distance(lattice, {r * std::cos(azimuth), y, r * std::sin(azimuth)});
+        points.deepest.keep_farthest(-distance, r, y);
+        if (share < 1) {
+          points.inside += distance < 0;
+          continue;
+        }
+        points.far += is_far(distance, wall);
+        points.farthest.keep_farthest(distance, r, y);
       }
+      points.all += 2;
+      ++points.wall;
     }
-  }
+  });
   return points;
+}
+
+// A hollow mesh's own cavity beside an inner outline that may not be its.
+struct OwnCavity {
+  CavitySearch search;
+  bool is_on_axis = false;  // of the vessel
+  WallPlace deepest;        // of the outline, beyond the cavity's profile
+  WallPlace farthest;       // from it
+  int far = 0, wall = 0;    // heights: where the outline is further from the profile than it may be; all
+
+  // The remedy for an outline that does not fit.
+  std::string offer() const {
+    if (!search.cavity) return "the mesh itself " + search.refusal;
+    const FoundCavity& cavity = *search.cavity;
+    if (is_on_axis) return "the mesh's own is inner_outline = " + outline_text(cavity.outline.elements);
+    return fmt::format(
+        "the mesh has a cavity about another axis, x = {:.4g} and z = {:.4g} mm: `wholehand mesh` finds the keys for it",
+        1e3 * cavity.axis[0], std::round(1e7 * cavity.axis[2]) / 1e4 + 0.0);
+  }
+};
+
+OwnCavity own_cavity(const MeshBody& body, const std::vector<PreparedElement>& outline) {
+  OwnCavity own;
+  own.search = find_cavity({{body.vertices, body.triangles}, body.facts});
+  if (!own.search.cavity) return own;
+  const FoundCavity& cavity = *own.search.cavity;
+  own.is_on_axis = std::hypot(cavity.axis[0], cavity.axis[2]) <= OFF_AXIS;
+  for_each_height(outline, [&](double r, double y) {
+    own.deepest.keep_farthest(depth_beyond(cavity.profile, {r, y}), r, y);
+    const double away = distance_from(cavity.profile, {r, y});
+    own.farthest.keep_farthest(away, r, y);
+    own.far += is_far(away, r);
+    ++own.wall;
+  });
+  return own;
 }
 
 // Returns a likely mistake in the inner outline although it fits; "" for none.
@@ -77,32 +149,43 @@ std::string place_cavity(const VesselData& vessel, MeshBody& body) {
   for (const int k : {0, 2}) reach = std::max({reach, std::abs(body.facts.low[k]), std::abs(body.facts.high[k])});
   const double floor = cavity.front().a[1], mouth = cavity.back().b[1];
   const std::string hint = inner_outline_hint(mouth - floor, widest, body.facts.high[1] - body.facts.low[1], reach);
-  const auto refuse = [&](const std::string& what) {
-    throw usage_error(
-        at_place(vessel.mesh->place, fmt::format("vessel '{}': {}", vessel.name, hint.empty() ? what : what + "; " + hint)));
+  const auto refuse = [&](const std::string& what, const OwnCavity& own) {
+    throw usage_error(at_place(
+        vessel.mesh->place, fmt::format("vessel '{}': {}{}; {}", vessel.name, what, hint.empty() ? "" : "; " + hint, own.offer())));
   };
   if (floor < body.facts.low[1] - ROUNDED_OUTLINE || mouth > body.facts.high[1] + ROUNDED_OUTLINE ||
       widest > reach + ROUNDED_OUTLINE) {
     refuse(fmt::format(
-        "the inner outline (heights {:.4g} to {:.4g} mm, radius {:.4g}) reaches beyond the mesh (heights {:.4g} to {:.4g} "
-        "mm, {:.4g} from the axis); give it in the vessel's frame",
-        1e3 * floor, 1e3 * mouth, 1e3 * widest, 1e3 * body.facts.low[1], 1e3 * body.facts.high[1], 1e3 * reach));
+               "the inner outline (heights {:.4g} to {:.4g} mm, radius {:.4g}) reaches beyond the mesh (heights {:.4g} to {:.4g} "
+               "mm, {:.4g} from the axis); give it in the vessel's frame",
+               1e3 * floor, 1e3 * mouth, 1e3 * widest, 1e3 * body.facts.low[1], 1e3 * body.facts.high[1], 1e3 * reach),
+           own_cavity(body, cavity));
   }
   const CavityPoints points = count_cavity_points(body.lattice, cavity);
   const double share = static_cast<double>(points.inside) / points.all;
   if (std::min(share, 1 - share) > OTHER_SIDE) {
-    refuse(
-        fmt::format("the inner outline passes through the mesh: {} of {} points well within it are glass; move it where the mesh "
-                    "is hollow, or make the mesh its hull",
-                    readable_number(points.inside), readable_number(points.all)));
-  }
-  if (points.off_wall > OTHER_SIDE * points.of_wall) {
     refuse(fmt::format(
-        "the inner outline is not that of the mesh: {} of {} points of it are far from the glass; it is turned about the "
-        "axis x = z = 0, which is the middle of the mesh's bounding box unless origin = \"as_is\"",
-        readable_number(points.off_wall), readable_number(points.of_wall)));
+               "the inner outline passes through the mesh: {} of {} points well within it are glass, the deepest by {:.3g} mm, {}; "
+               "move it where the mesh is hollow, or make the mesh its hull",
+               readable_number(points.inside), readable_number(points.all), 1e3 * points.deepest.off, place_text(points.deepest)),
+           own_cavity(body, cavity));
   }
   body.holds_cavity = share > 0.5;
+  const bool is_far_off = points.far > OTHER_SIDE * points.wall;
+  if (!is_far_off && (body.holds_cavity || points.deepest.off <= OUTLINE_TOLERANCE + body.lattice_error)) return hint;
+  const OwnCavity own = own_cavity(body, cavity);
+  const bool is_known = own.search.cavity && own.is_on_axis;
+  if (is_known && own.deepest.off > MOST_IN_WALL)
+    refuse(fmt::format("the inner outline reaches {:.3g} mm into the glass, {}", 1e3 * own.deepest.off, place_text(own.deepest)),
+           own);
+  if (is_known ? own.far > OTHER_SIDE * own.wall : is_far_off) {
+    const WallPlace& worst = is_known ? own.farthest : points.farthest;
+    refuse(fmt::format(
+               "the inner outline is not that of the mesh: it is up to {:.3g} mm from the glass, {}; it is turned about the axis "
+               "x = z = 0, which is the middle of the mesh's bounding box unless origin = \"as_is\"",
+               1e3 * worst.off, place_text(worst)),
+           own);
+  }
   return hint;
 }
 
@@ -202,14 +285,14 @@ MeshLattice take_lattice(const CheckedMesh& mesh, const LatticeSpec& spec, const
     if (!samples) return status.show(fmt::format("{}  {:.0f} %", what, 100 * share));
     samples->update(what, static_cast<std::uint64_t>(share * static_cast<double>(samples->total())));
   };
-  const auto announce = [&](const PreparedLattice& lattice, double seconds) {
-    if (!options.is_quiet) samples.emplace(std::uint64_t(lattice.nx) * lattice.ny * lattice.nz, 0, "samples");
-    if (!is_long(seconds, mesh.facts.closed)) return;
+  const auto announce = [&](const LatticePlan& plan) {
+    if (!options.is_quiet) samples.emplace(std::uint64_t(plan.lattice.nx) * plan.lattice.ny * plan.lattice.nz, 0, "samples");
+    if (!plan.finer && !is_long(plan.seconds, mesh.facts.closed)) return;
     status.show("");
     const auto& print_line = options.say ? options.say : options.forecast;
-    if (print_line) print_line(name + ": " + forecast_text(lattice, seconds, mesh.facts.closed));
+    if (print_line) print_line(name + ": " + forecast_text(plan, mesh.facts.closed));
   };
-  return cached_lattice(mesh, spec, options.cache_folder, progress, {announce, options.clock});
+  return cached_lattice(mesh, spec, options.cache_folder, progress, {announce, options.clock, MOST_LATTICE_SECONDS});
 }
 
 void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder, const MeshOptions& options,
@@ -223,6 +306,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   status.show(fmt::format("{}: reading {}", name, data.file));
   TriangleMesh read = read_mesh(data, folder);
   CheckedMesh checked = check_mesh(read, at_place(data.place, data.file), data.close_holes);
+  if (data.thickness) checked = thickened(checked, *data.thickness, at_place(data.place, data.file));
   const bool says_what_is_up = read.says_what_is_up;
   read = {};
   status.show("");
@@ -303,11 +387,17 @@ std::string load_same_meshes(Scene& scene, const std::string& keys, const std::s
 
 bool is_long(double seconds, bool is_closed) { return seconds > (is_closed ? LONG_WORK : LONG_OPEN_WORK); }
 
-std::string forecast_text(const PreparedLattice& lattice, double seconds, bool is_closed) {
-  return fmt::format(
-      "its lattice of {:.4g} mm has {} samples, which take about {}{}", 1e3 * lattice.spacing,
-      readable_count(static_cast<double>(lattice.nx) * lattice.ny * lattice.nz), readable_duration(seconds),
-      is_closed ? "; a larger grid_mm takes less" : ", as the mesh is open; a closed one, or a larger grid_mm, takes less");
+std::string forecast_text(const LatticePlan& plan, bool is_closed) {
+  const auto lattice_time = [](const PreparedLattice& lattice, double seconds) {
+    return fmt::format("its lattice of {:.4g} mm has {} samples, which take about {}", 1e3 * lattice.spacing,
+                       readable_count(static_cast<double>(lattice.nx) * lattice.ny * lattice.nz), readable_duration(seconds));
+  };
+  if (plan.finer)
+    return fmt::format("{}; one of {:.4g} mm, which takes about {}, is taken instead: grid_mm = {:.4g} asks for the finer one",
+                       lattice_time(*plan.finer, plan.finer_seconds), 1e3 * plan.lattice.spacing, readable_duration(plan.seconds),
+                       1e3 * plan.finer->spacing);
+  return lattice_time(plan.lattice, plan.seconds) +
+         (is_closed ? "; a larger grid_mm takes less" : ", as the mesh is open; a closed one, or a larger grid_mm, takes less");
 }
 
 bool has_meshes(const Scene& scene) {

@@ -12,7 +12,11 @@
 
 namespace wholehand {
 
+struct LatticePlan;  // core/meshes/lattice.h
+
 constexpr std::size_t LARGEST_LATTICE = 512u << 20;  // bytes of samples, whatever the device
+
+constexpr double MOST_LATTICE_SECONDS = 60;  // of work, where the scene gives no grid_mm
 
 struct MeshOptions {
   std::size_t most_bytes = LARGEST_LATTICE;          // of a lattice's samples: floats up to half of it, 16 bits each beyond
@@ -30,9 +34,11 @@ std::size_t largest_lattice(std::uint64_t device_bytes);
 
 // From which duration `forecast_text` announces a lattice: 10 s; for an open mesh 3 s.
 bool is_long(double seconds, bool is_closed);
-std::string forecast_text(const PreparedLattice& lattice, double seconds, bool is_closed);
+// If there is a finer lattice, says what is taken in its place.
+std::string forecast_text(const LatticePlan& plan, bool is_closed);
 
 // Reads, checks and samples the mesh of every vessel that has one, and sets its body, base and height; files are relative to the scene file's folder.
+// Without grid_mm, a lattice that is forecast to take more than a minute gives way to a coarser one.
 // The lattice covers everything that hands of the scene's sizes can touch. Existing bodies stay. Throws Error (usage), one line with the place in the
 // scene file, for what read_mesh and check_mesh refuse, a lattice that is too large, or an inner outline that does not fit the mesh.
 void load_meshes(Scene& scene, const MeshOptions& options);

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 #include "core/vectors.h"
 
@@ -13,6 +15,8 @@ namespace wholehand {
 namespace {
 
 constexpr std::uint32_t WINDING_LEAF = 8;  // triangles
+// Open edges of a mesh: beyond, all of them take longer than what they save, and they are all over the mesh, where they save nothing.
+constexpr std::size_t MOST_RIM_EDGES = 20'000;
 
 // The solid angle of a triangle seen from the origin, signed: van Oosterom and Strackee (1983). 0 where it is seen edge on.
 double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -97,6 +101,29 @@ double WindingTree::winding_number(const glm::dvec3& p, double opening) const {
     }
   }
   return angle / (4 * std::numbers::pi);
+}
+
+WindingRim::WindingRim(const TriangleMesh& mesh) {
+  for_each_edge(edge_uses(mesh.triangles), [&](std::span<const EdgeUse> uses) {
+    int net = 0;
+    for (const EdgeUse& use : uses) net += use.is_forward ? 1 : -1;
+    if (net == 0) return;
+    const glm::dvec3 from = to_vec3(mesh.vertices[uses.front().low]), to = to_vec3(mesh.vertices[uses.front().high]);
+    const double length = glm::length(to - from);
+    edges_.push_back({(from + to) / 2.0, std::abs(net) * length, length / 2});
+  });
+}
+
+double WindingRim::slope(const glm::dvec3& p, double radius) const {
+  constexpr double UNKNOWN = std::numeric_limits<double>::infinity();
+  if (edges_.size() > MOST_RIM_EDGES) return UNKNOWN;
+  double sum = 0;
+  for (const RimEdge& edge : edges_) {
+    const double away = glm::length(edge.middle - p) - edge.half - radius;
+    if (!(away > 0)) return UNKNOWN;
+    sum += edge.length / (away * away);
+  }
+  return sum / (4 * std::numbers::pi);
 }
 
 }  // namespace wholehand

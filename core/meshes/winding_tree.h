@@ -36,4 +36,21 @@ class WindingTree {
   std::vector<Node> nodes_;           // the root is 0
 };
 
+// How fast the winding number of an open mesh changes. It jumps where the surface is crossed. Elsewhere it changes as the magnetic potential of a
+// current of 1 along the rim does: by the law of Biot and Savart its gradient is at most the integral of dl / (4 pi r2) along the open edges.
+class WindingRim {
+ public:
+  explicit WindingRim(const TriangleMesh& mesh);
+  // An upper bound of the gradient's length within `radius` of p, 1/m: infinite if an open edge may be there.
+  double slope(const glm::dvec3& p, double radius) const;
+
+ private:
+  struct RimEdge {
+    glm::dvec3 middle;
+    double length;  // times the uses in one direction that the other direction lacks
+    double half;    // of its own length
+  };
+  std::vector<RimEdge> edges_;
+};
+
 }  // namespace wholehand

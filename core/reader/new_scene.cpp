@@ -24,16 +24,20 @@ constexpr NewSceneKey KEYS[] = {
     {"mass_kg", ranges::MASS, "empty", "Mass of an empty mesh"},
     {DENSITY, ranges::VESSEL_DENSITY, "of the wall: 2230 is glass, 1050 polystyrene, 7900 steel",
      "Density of the wall, or of the mesh (default: 2230, glass)"},
-    {"mesh_scale", ranges::MESH_SCALE, "of the file's unit, in m", "Size of a mesh's unit in m (default: 1)"},
+    {"mesh_scale", ranges::MESH_SCALE, "of the file's unit, in m", "Size of a mesh's unit in m (default: the likeliest)"},
 };
 
 const char* comment_of(const std::string& key) {
   return std::find_if(std::begin(KEYS), std::end(KEYS), [&](const NewSceneKey& one) { return key == one.name; })->comment;
 }
 
-void append_key(std::string& text, const std::string& key, const std::string& value, const char* comment) {
+void append_key(std::string& text, const std::string& key, const std::string& value, const std::string& comment) {
   const std::string line = key + " = " + value;
-  append_formatted(text, "{:<{}} # {}\n", line, line.size() > 24 ? 56 : 24, comment);
+  constexpr std::size_t LONG = 24, LONGEST = 56;
+  if (line.size() > LONGEST)
+    append_formatted(text, "# {}: {}\n{}\n", key, comment, line);
+  else
+    append_formatted(text, "{:<{}} # {}\n", line, line.size() > LONG ? LONGEST : LONG, comment);
 }
 
 std::string vessel_table(const NewScene& wanted) {
@@ -43,15 +47,23 @@ std::string vessel_table(const NewScene& wanted) {
     append_key(text, "shape", '"' + wanted.shape + '"', "\"cylinder\", \"flask\" or \"conical\"; `outline` draws any other");
   } else {
     std::string path;
-    for (const char c : wanted.mesh) path += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-    append_key(text, "mesh", '"' + path + '"', "solid; `inner_outline` gives it a cavity for a liquid");
+    for (const char c : wanted.mesh) {
+      const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+      path += is_control              ? fmt::format("\\u{:04x}", static_cast<unsigned char>(c))
+              : c == '"' || c == '\\' ? std::string{'\\', c}
+                                      : std::string{c};
+    }
+    append_key(
+        text, "mesh", '"' + path + '"',
+        wanted.has_cavity() ? "holds liquid in its `inner_outline`" : "solid; `inner_outline` gives it a cavity for a liquid");
+    for (const SceneKey& key : wanted.mesh_keys) append_key(text, key.key, key.value, key.comment);
   }
   std::vector<std::pair<std::string, double>> numbers = wanted.numbers;
   const auto has = [&](const char* key) {
     return std::any_of(numbers.begin(), numbers.end(), [&](const auto& number) { return number.first == key; });
   };
   if (wanted.mesh.empty() && !has("wall_mm")) numbers.emplace_back("wall_mm", 1.5);
-  if (wanted.mesh.empty() && !has(DENSITY)) numbers.emplace_back(DENSITY, 2230);
+  if (!has(DENSITY) && !has("mass_kg")) numbers.emplace_back(DENSITY, 2230);
   for (const auto& [key, value] : numbers) append_key(text, key, fmt::format("{}", value), comment_of(key));
   return text;
 }
@@ -96,21 +108,26 @@ best = 20
 
 std::span<const NewSceneKey> new_scene_keys() { return KEYS; }
 
+bool NewScene::has_cavity() const {
+  return mesh.empty() ||
+         std::any_of(mesh_keys.begin(), mesh_keys.end(), [](const SceneKey& key) { return key.key == "inner_outline"; });
+}
+
 std::string new_scene(const NewScene& wanted) {
   if (!is_plain_name(wanted.name))
     throw usage_error(fmt::format("name = {}; allowed: a letter, then letters, digits, '_', '-' or '.', at most {} in all",
                                   in_quotes(wanted.name), ranges::LARGEST_NAME));
   if (wanted.shape != "cylinder" && wanted.shape != "flask" && wanted.shape != "conical")
     throw usage_error(fmt::format("shape = {}; allowed: cylinder, flask or conical", in_quotes(wanted.shape)));
-  if (wanted.fill && !wanted.mesh.empty())
-    throw usage_error("fill_ml: a mesh is solid; write the scene without it, and give its vessel an inner_outline");
+  if (wanted.fill && !wanted.has_cavity())
+    throw usage_error("fill_ml: the mesh has no cavity; write the scene without it, and give its vessel an inner_outline");
   std::string text = fmt::format(
       "# One vessel. docs/scene.md describes every key, with its unit, default and range.\n\n[scene]\nname = \"{}\"\n\n",
       wanted.name);
   text += vessel_table(wanted);
   text += "\n# ---- where it stands: no finger may be under its base ----\n\n[table]\n";
   text += "\n# ---- whose hand it is: a person in front of it, whose wrist and forearm turn as far as people's do ----\n\n[arm]\n";
-  if (wanted.mesh.empty()) text += liquid_table(wanted);
+  if (wanted.has_cavity()) text += liquid_table(wanted);
   text += "\n# ---- how it is held: every combination, taken between thumb and index finger ----\n\n[grips]\n";
   const bool is_round = wanted.mesh.empty();
   append_key(text, "height_fraction", fmt::format("{{ from = 0.1, to = 0.95, count = {} }}", is_round ? 64 : 24),

@@ -39,7 +39,8 @@ constexpr std::size_t LARGEST_GUIDANCE = 1000;  // points
 constexpr std::size_t LARGEST_FILLS = 64;
 constexpr std::size_t LARGEST_TILTS = 2048;
 constexpr std::size_t LARGEST_AXIS = 1000000;  // values
-constexpr std::size_t LARGEST_KEEP = 1000;     // variable names
+constexpr std::size_t LARGEST_PARTS = 1000;
+constexpr std::size_t LARGEST_KEEP = 1000;  // variable names
 
 constexpr Quantity GRAVITY{0, 100};
 constexpr Quantity SCALE{0.05, 20};  // of the hand, and hand_scale of a grip
@@ -92,6 +93,8 @@ constexpr Quantity OFFSET{-10000, 10000, Unit::mm};
 constexpr Quantity POINT{-25000, 25000, Unit::mm};  // a fingertip given on the command line
 constexpr Quantity TILT{0, 180, Unit::deg};
 constexpr Quantity POURED_SHARE{1e-6, 1};
+constexpr Quantity MESH_ORIGIN{-1e12, 1e12, Unit::mm};  // a mesh has coordinates up to a million km
+constexpr IntegerRange PART{1, 100000};                 // of a mesh
 constexpr IntegerRange BETWEEN{0, 8};
 constexpr IntegerRange AXIS_COUNT{1, LARGEST_AXIS};
 constexpr IntegerRange SOBOL_COUNT{1, 1000000000000000};

@@ -11,20 +11,40 @@
 namespace wholehand {
 namespace {
 
-constexpr std::array<std::string_view, 26> VESSEL_KEYS{
+constexpr std::array<std::string_view, 28> VESSEL_KEYS{
     "name",        "shape",         "diameter_mm", "height_mm",         "neck_mm",       "upright_mm",
     "shoulder_mm", "outline",       "mesh",        "mesh_scale",        "rotate_deg",    "up",
     "close_holes", "origin",        "grid_mm",     "inner_outline",     "wall_mm",       "floor_mm",
     "surface",     "density_kg_m3", "mass_kg",     "center_of_mass_mm", "force_range_N", "guidance_mm",
-    "place_mm",    "liquid"};
+    "place_mm",    "liquid",        "part",        "thickness_mm"};
 constexpr std::array<std::string_view, 5> SHAPE_KEYS{"diameter_mm", "height_mm", "neck_mm", "upright_mm", "shoulder_mm"};
-constexpr std::array<std::string_view, 6> MESH_KEYS{"mesh_scale", "up", "close_holes", "rotate_deg", "origin", "grid_mm"};
+constexpr std::array<std::string_view, 8> MESH_KEYS{"mesh_scale", "up",      "close_holes", "rotate_deg",
+                                                    "origin",     "grid_mm", "part",        "thickness_mm"};
 
 void refuse_keys(const SceneTable& table, std::span<const std::string_view> keys, const std::string& without) {
   for (const auto key : keys) {
     if (table.has(key))
       table.file().refuse(table.place(key), fmt::format("{} is given without {}", key, without),
                           fmt::format("allowed: leave out {}", key));
+  }
+}
+
+// A number, or several.
+void read_parts(const SceneTable& table, std::vector<int>& parts) {
+  const toml::node* node = table.find("part");
+  if (!node) return;
+  if (!node->is_array()) {
+    std::int64_t number = 0;
+    table.read("part", ranges::PART, number);
+    parts = {static_cast<int>(number)};
+    return;
+  }
+  for (const toml::node& one : *table.array("part", 1, ranges::LARGEST_PARTS, "numbers from 1")) {
+    const std::optional<std::int64_t> number = one.value_exact<std::int64_t>();
+    if (!number || *number < ranges::PART.low || *number > ranges::PART.high)
+      table.file().refuse(place_of(one), "an entry of part " + found(one),
+                          fmt::format("allowed: a whole number, {} to {}", ranges::PART.low, ranges::PART.high));
+    parts.push_back(static_cast<int>(*number));
   }
 }
 
@@ -37,7 +57,16 @@ MeshData read_mesh(const SceneTable& table) {
   mesh.says_up = table.has("up");
   table.read("rotate_deg", ranges::ROTATION, "[x, y, z]", mesh.rotate);
   table.read_flag("close_holes", mesh.close_holes);
-  table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
+  if (const toml::node* origin = table.find("origin"); origin && origin->is_array()) {
+    table.read("origin", ranges::MESH_ORIGIN, "[x, y, z]", mesh.origin.emplace());
+  } else {
+    table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
+  }
+  read_parts(table, mesh.parts);
+  if (table.has("thickness_mm")) table.need("thickness_mm", ranges::WALL, mesh.thickness.emplace());
+  if (mesh.thickness && mesh.close_holes)
+    table.file().refuse(table.place("thickness_mm"), "both close_holes and thickness_mm are given",
+                        "allowed: thickness_mm for a sheet, whose mouth stays open, or close_holes");
   if (table.has("grid_mm")) table.need("grid_mm", ranges::LATTICE_SPACING, mesh.lattice_spacing.emplace());
   // what is in the file is hull and wall at once
   for (const char* key : {"wall_mm", "floor_mm", "surface"}) {

@@ -2,19 +2,13 @@
 // The grip that a hand would have if it closed now: converts a session's state to the six numbers of a grip.
 #pragma once
 
-#include <array>
 #include <optional>
 
-#include "core/real.h"
 #include "core/result.h"
 #include "device/session/live_scene.h"
 #include "device/session/vessel_tracker.h"
 
 namespace wholehand::device {
-
-// The grip of two tips (thumb, index) and a gripper's axes, in the vessel's frame and the world of the right hand. Absent if the line of the tips
-// runs along the vessel's axis.
-std::optional<GripInput> grip_of_tips(const std::array<core_f64::Vec3, 2>& tips, const core_f64::Mat3& axes);
 
 // The vessel near the hand, and the hand's pose relative to it.
 struct Approach {

@@ -74,4 +74,10 @@ void GraspCollector::close_liquid(int vessel, const Volumes& arrived, const Volu
   pouring_[v].reset();
 }
 
+std::vector<GraspReport> grasps_of(const Recording& recording) {
+  GraspCollector collector(recording.info.rate, recording.info.force_max);
+  for (const Tick& tick : recording.ticks) collector.add(tick);
+  return collector.finish();
+}
+
 }  // namespace wholehand::device

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "device/recordings/grasp_measure.h"
+#include "device/recordings/recording.h"
 #include "device/session/tick.h"
 
 namespace wholehand::device {
@@ -43,5 +44,8 @@ class GraspCollector {
   Volumes arrived_{}, spilled_{};                             // at the last tick
   std::vector<GraspReport> grasps_;
 };
+
+// All grasps of a recording, in order.
+std::vector<GraspReport> grasps_of(const Recording& recording);
 
 }  // namespace wholehand::device

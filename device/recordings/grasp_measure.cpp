@@ -6,6 +6,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/reader/asked_grip.h"
+#include "core/vectors.h"
+#include "device/session/grip_of_tips.h"
+
 namespace wholehand::device {
 
 const std::array<const char*, GRIP_COURSES> GRIP_COURSE_NAMES{"", "G1", "G2", "G3", "G4"};
@@ -193,11 +197,23 @@ void measure_grip(GraspReport& grasp, std::span<const Tick> held, std::size_t at
   if (way.is_there) grasp.after_at_first = maintained_at_first(held, way, rate);
 }
 
+// The grip of a tick that holds a vessel. The hand keeps it until it lets go.
+std::optional<GripInput> grip_in(const Tick& tick) {
+  const core_f64::Mat3 inward = glm::transpose(to_mat3(tick.vessel_rotation));
+  const auto tip = [&](std::size_t k) { return inward * (to_vec3(tick.proxies[k]) - to_vec3(tick.vessel_place)); };
+  const std::optional<GripInput> grip = grip_of_tips({tip(0), tip(1)}, inward * to_mat3(tick.hand_rotation));
+  if (!grip) return std::nullopt;
+  const auto numbers = grip_numbers(*grip);
+  const bool is_finite = std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+  return is_finite ? grip : std::nullopt;
+}
+
 }  // namespace
 
 GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost) {
   GraspReport grasp;
   grasp.vessel = held.front().vessel;
+  grasp.guidance = held.front().guidance;
   grasp.start = static_cast<double>(held.front().number) / rate;
   grasp.end = static_cast<double>(held.back().number + 1) / rate;
   std::array<std::int64_t, 3> periods{};
@@ -205,6 +221,7 @@ GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost)
     periods[static_cast<std::size_t>(held[k].state) - static_cast<std::size_t>(SessionState::lift)] += periods_of(held, k);
     if (held[k].tilt > grasp.largest_tilt) grasp.largest_tilt = held[k].tilt;
     if (std::isnan(grasp.guidance_distance)) grasp.guidance_distance = held[k].guidance_distance;
+    if (!grasp.grip) grasp.grip = grip_in(held[k]);
   }
   for (std::size_t k = 0; k < periods.size(); ++k) grasp.duration[k] = static_cast<double>(periods[k]) / rate;
   const TiltWay way = tilt_way(held, grasp.largest_tilt);

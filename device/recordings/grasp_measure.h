@@ -5,8 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
+#include "core/result.h"
 #include "core/scene.h"
 #include "device/session/tick.h"
 
@@ -44,7 +46,8 @@ extern const std::array<const char*, GRIP_COURSES> GRIP_COURSE_NAMES;  // "", "G
 enum class GraspOutcome : std::uint8_t { let_go, lost, released, recording_ends };
 extern const std::array<const char*, 4> GRASP_OUTCOME_NAMES;
 
-// NaN: there is none.
+// NaN: there is none. `grip` is computed as if the hand were a right one: azimuth, roll and offset of a left hand are mirrored, which does not change
+// their deviations.
 struct GraspReport {
   int vessel = -1;
   double start = 0, end = 0;            // of the grasp since the session's start, s; the end is that of its last tick's period
@@ -63,6 +66,8 @@ struct GraspReport {
   GripCourse course = GripCourse::not_analyzed;
   GraspOutcome outcome = GraspOutcome::let_go;
   double guidance_distance = Tick::NONE;  // m
+  int guidance = -1;                      // number of the guidance point that was shown; -1: none
+  std::optional<GripInput> grip;          // absent: a number is not finite, or the line of the tips runs along the axis
   double poured = 0;                      // over the lip during the grasp, m3
   double arrived = 0, spilled = 0;        // until the vessel's next grasp, m3
 };

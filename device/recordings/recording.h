@@ -57,6 +57,9 @@ struct RecordingInfo {
   double tolerance = Tick::NONE;        // of the amounts, m3
 };
 
+// The same vessels by name, with the same liquids.
+bool has_same_vessels(const RecordingInfo& a, const RecordingInfo& b);
+
 // s: median, 99th and 99.9th percentile, largest.
 struct Percentiles {
   double p50 = 0, p99 = 0, p999 = 0, max = 0;

@@ -75,6 +75,17 @@ SessionJson summary_json(const GraspSummary& summary) {
   return json;
 }
 
+SessionJson scatter_json(const GripScatter& scatter) {
+  if (!scatter.is_enough()) return nullptr;
+  SessionJson json{{"grasps", scatter.grasps()}, {"vessels", scatter.vessels()}, {"degrees_of_freedom", scatter.freedom()}};
+  const auto deviations = scatter.deviations();
+  for (std::size_t k = 0; k < deviations.size(); ++k)
+    json[SCATTER_KEYS[k].name_si] = {{"deviation", number_or_null(deviations[k].value)},
+                                     {"low", number_or_null(deviations[k].interval.low)},
+                                     {"high", number_or_null(deviations[k].interval.high)}};
+  return json;
+}
+
 SessionJson amount_json(const PouredAmount& amount) {
   return {{"liquid", amount.liquid},
           {"wanted_m3", number_or_null(amount.wanted)},
@@ -106,6 +117,7 @@ std::string session_json(const SessionReport& report) {
   for (const GraspReport& grasp : report.grasps) json["grasps"].push_back(grasp_json(report, grasp));
   json["vessels"] = SessionJson::array();
   for (const GraspSummary& summary : report.vessels) json["vessels"].push_back(summary_json(summary));
+  json["scatter"] = scatter_json(report.scatter);
   json["amounts"] = SessionJson::array();
   for (const PouredAmount& amount : report.amounts) json["amounts"].push_back(amount_json(amount));
   json["has_clock"] = report.info.has_clock;

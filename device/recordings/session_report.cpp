@@ -36,12 +36,6 @@ std::vector<TickRange> split(const std::vector<Tick>& ticks, IsSame is_same) {
   return ranges;
 }
 
-std::vector<GraspReport> measure_grasps(const std::vector<Tick>& ticks, double rate, double force_max) {
-  GraspCollector collector(rate, force_max);
-  for (const Tick& tick : ticks) collector.add(tick);
-  return collector.finish();
-}
-
 // `vessel` -1: all.
 GraspSummary summarize(const std::vector<GraspReport>& grasps, int vessel, const std::string& name) {
   GraspSummary summary;
@@ -136,7 +130,8 @@ SessionReport report_session(const Recording& recording) {
     if (fault != ticks.end()) report.fault = fault->fault;
     measure_states(report, ticks);
     measure_timing(report, ticks);
-    report.grasps = measure_grasps(ticks, recording.info.rate, recording.info.force_max);
+    report.grasps = grasps_of(recording);
+    report.scatter.add(report.grasps);
     report.lost = ticks.back().lost;
     report.destinations = ticks.back().destinations;
     report.task_done = ticks.back().task_done;

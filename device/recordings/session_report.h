@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device/recordings/grasp_measure.h"
+#include "device/recordings/grip_scatter.h"
 #include "device/recordings/recording.h"
 
 namespace wholehand::device {
@@ -44,7 +45,8 @@ struct SessionReport {
   std::vector<StateRun> runs;
   std::vector<GraspReport> grasps;
   std::vector<GraspSummary> vessels;  // one each, and one for all
-  int lost = 0, destinations = 0;     // as the session counted
+  GripScatter scatter;
+  int lost = 0, destinations = 0;  // as the session counted
   bool task_done = false;
   std::vector<PouredAmount> amounts;  // by liquid
   Percentiles period, step, latency;  // over the recorded ticks, s
@@ -58,6 +60,9 @@ SessionReport report_session(const Recording& recording);
 std::string session_table(const SessionReport& report);
 // One object in one line, SI units; null for a missing number.
 std::string session_json(const SessionReport& report);
+// The measures of a grasp as cells of a CSV file, and their columns.
+extern const char* const GRASP_COLUMNS;
+std::string grasp_cells(const GraspReport& grasp);
 // A row each.
 std::string grasps_csv(const SessionReport& report);
 std::string states_csv(const SessionReport& report);

@@ -142,11 +142,6 @@ void write_timing(std::string& out, const SessionReport& report) {
                    readable_number(report.ticks));
 }
 
-// A cell of a CSV file; empty where there is none.
-std::string csv_number(double value, double unit = 1) {
-  return std::isfinite(value) ? fmt::format("{:.9g}", value / unit) : std::string();
-}
-
 std::string csv_vessel(const SessionReport& report, int vessel) {
   return vessel < 0 ? std::string() : csv_text(report.info.vessels[static_cast<std::size_t>(vessel)].name);
 }
@@ -159,43 +154,48 @@ std::string session_table(const SessionReport& report) {
   write_grasps(text, report);
   write_amounts(text, report);
   if (report.ticks > 0) write_timing(text, report);
+  if (!report.grasps.empty()) text += "\n" + report.scatter.table();
   return text;
 }
 
+const char* const GRASP_COLUMNS =
+    "start_s,end_s,lift_s,tilt_s,maintain_s,response_time_s,grip_stopped_N,grip_before_N,grip_before_deviation_N,grip_during_N,"
+    "grip_during_deviation_N,grip_after_N,grip_after_deviation_N,largest_tilt_deg,tilt_start_s,tilt_time_s,normal_increase_N,"
+    "grip_change_N,turning_back_N,saturated_s,type,guidance_distance_mm,poured_ml,arrived_ml,spilled_ml,outcome";
+
+std::string grasp_cells(const GraspReport& grasp) {
+  std::string cells;
+  for (const double value : {grasp.start,
+                             grasp.end,
+                             grasp.duration[0],
+                             grasp.duration[1],
+                             grasp.duration[2],
+                             grasp.response_time,
+                             grasp.tightened,
+                             grasp.before.mean,
+                             grasp.before.deviation,
+                             grasp.during.mean,
+                             grasp.during.deviation,
+                             grasp.after.mean,
+                             grasp.after.deviation,
+                             degrees(grasp.largest_tilt),
+                             grasp.tilt_start,
+                             grasp.tilt_time,
+                             grasp.normal_increase,
+                             grasp.grip_change,
+                             grasp.turning_back,
+                             grasp.saturated})
+    cells += csv_number(value) + ",";
+  return cells + fmt::format("{},{},{},{},{},{}", GRIP_COURSE_NAMES[static_cast<std::size_t>(grasp.course)],
+                             csv_number(grasp.guidance_distance, 1e-3), csv_number(grasp.poured, 1e-6),
+                             csv_number(grasp.arrived, 1e-6), csv_number(grasp.spilled, 1e-6),
+                             GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)]);
+}
+
 std::string grasps_csv(const SessionReport& report) {
-  std::string csv =
-      "grasp,vessel,start_s,end_s,lift_s,tilt_s,maintain_s,response_time_s,grip_stopped_N,grip_before_N,grip_before_deviation_N,"
-      "grip_during_N,grip_during_deviation_N,grip_after_N,grip_after_deviation_N,largest_tilt_deg,tilt_start_s,tilt_time_s,"
-      "normal_increase_N,grip_change_N,turning_back_N,saturated_s,type,guidance_distance_mm,poured_ml,arrived_ml,spilled_ml,"
-      "outcome\n";
-  for (std::size_t k = 0; k < report.grasps.size(); ++k) {
-    const GraspReport& grasp = report.grasps[k];
-    csv += fmt::format("{},{}", k + 1, csv_vessel(report, grasp.vessel));
-    for (const double value : {grasp.start,
-                               grasp.end,
-                               grasp.duration[0],
-                               grasp.duration[1],
-                               grasp.duration[2],
-                               grasp.response_time,
-                               grasp.tightened,
-                               grasp.before.mean,
-                               grasp.before.deviation,
-                               grasp.during.mean,
-                               grasp.during.deviation,
-                               grasp.after.mean,
-                               grasp.after.deviation,
-                               degrees(grasp.largest_tilt),
-                               grasp.tilt_start,
-                               grasp.tilt_time,
-                               grasp.normal_increase,
-                               grasp.grip_change,
-                               grasp.turning_back,
-                               grasp.saturated})
-      csv += "," + csv_number(value);
-    csv += fmt::format(",{},{},{},{},{},{}\n", GRIP_COURSE_NAMES[static_cast<std::size_t>(grasp.course)],
-                       csv_number(grasp.guidance_distance, 1e-3), csv_number(grasp.poured, 1e-6), csv_number(grasp.arrived, 1e-6),
-                       csv_number(grasp.spilled, 1e-6), GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)]);
-  }
+  std::string csv = fmt::format("grasp,vessel,{}\n", GRASP_COLUMNS);
+  for (std::size_t k = 0; k < report.grasps.size(); ++k)
+    csv += fmt::format("{},{},{}\n", k + 1, csv_vessel(report, report.grasps[k].vessel), grasp_cells(report.grasps[k]));
   return csv;
 }
 

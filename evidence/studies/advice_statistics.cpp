@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -37,15 +38,18 @@ constexpr std::array<const char*, 3> ADVICE_SUBJECTS{"without", "with", "differe
 using Members = std::span<const std::size_t>;
 using Means = std::array<double, 3>;  // in the order of ADVICE_SUBJECTS
 
+bool has_both(const AdvisedPerson& person, const AdviceNumber& number) {
+  return !std::isnan(number.of(person.without)) && !std::isnan(number.of(person.with));
+}
+
 // Over those who have the number in both sessions.
 Means means_of(std::span<const AdvisedPerson> people, Members members, const AdviceNumber& number) {
   double without = 0, with = 0;
   std::size_t count = 0;
   for (const std::size_t member : members) {
-    const double a = number.of(people[member].without), b = number.of(people[member].with);
-    if (std::isnan(a) || std::isnan(b)) continue;
-    without += a;
-    with += b;
+    if (!has_both(people[member], number)) continue;
+    without += number.of(people[member].without);
+    with += number.of(people[member].with);
     ++count;
   }
   if (count == 0) return {NO_MEAN, NO_MEAN, NO_MEAN};
@@ -132,6 +136,9 @@ std::vector<StudyRow> advice_rows(std::span<const AdvisedPerson> people, std::ui
     row.statistic = ADVICE_NUMBERS[k / ADVICE_SUBJECTS.size()].statistic;
     row.subject = ADVICE_SUBJECTS[k % ADVICE_SUBJECTS.size()];
     row.value = values[k];
+    row.count.people = static_cast<std::uint64_t>(std::count_if(people.begin(), people.end(), [&](const AdvisedPerson& one) {
+      return has_both(one, ADVICE_NUMBERS[k / ADVICE_SUBJECTS.size()]);
+    }));
     if (!std::isnan(row.value)) row.interval = percentile_interval(column(samples, k));
     rows.push_back(std::move(row));
   }

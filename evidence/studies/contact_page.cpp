@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/charts/html.h"
@@ -91,10 +92,10 @@ std::string worded(const StudyRow& row, double touch_share) {
 }
 
 void write_point_table(MarkupWriter& html, const Found& found, const std::string& pose, const std::string& vessel) {
-  HtmlTable table(
-      html,
-      fmt::format("The points of the hand on {}, pose {}", vessel == ALL_VESSELS ? "all vessels of the sample" : vessel, pose),
-      {"point", "touches", "with the height", "with the distance"}, {2, 3});
+  HtmlTable table(html,
+                  fmt::format("Table 1 as predicted: the points of the hand on {}, pose {}",
+                              vessel == ALL_VESSELS ? "all vessels of the sample" : vessel, pose),
+                  {"point", "touches", "with the height", "with the distance"}, {2, 3});
   for (int joint = 0; joint < JOINT_COUNT; ++joint) {
     const std::string point = joint_key(joint);
     const StudyRow& touches = found.at(vessel, "touch_share", point);
@@ -112,19 +113,17 @@ void write_contact_tables(MarkupWriter& html, std::span<const StudyRow> rows) {
 }
 
 StudySection words_of_contacts() {
-  return {
-      "words",
-      "The words",
-      {"Each person grasps each vessel at each of its guidance points. The height is that of the line between thumb and index "
-       "finger. The distance is that of the nearer contact, on the skin, from the guidance point. A grasp holds if the grip is "
-       "feasible; all other numbers are of the grasps that hold.",
-       fmt::format(
-           "VSN, SN and N: a very strong (|r| from {}), a strong (from {}) and a weaker (from {}) negative "
-           "correlation; P, SP and VSP: the same, positive; \u2013: a smaller one. These limits are ours, and apply to r in "
-           "two digits. A point that always or never touches has none.",
-           VERY_STRONG_R, STRONG_R, WEAK_R),
-       "These are predictions. Nothing is fitted to the paper's results, and its values for this experiment are not known here."},
-      {}};
+  return {"words",
+          "The words",
+          {"Each person grasps each vessel at each of its guidance points. The height is that of the line between thumb and index "
+           "finger. The distance is that of the nearer contact, on the skin, from the guidance point. A grasp holds if the grip is "
+           "feasible; all other numbers are of the grasps that hold.",
+           fmt::format(
+               "VSN, SN and N: a very strong (|r| from {}), a strong (from {}) and a weaker (from {}) negative "
+               "correlation; P, SP and VSP: the same, positive; \u2013: a smaller one. These limits are ours, and apply to r in "
+               "two digits. A point that always or never touches has none.",
+               VERY_STRONG_R, STRONG_R, WEAK_R)},
+          {}};
 }
 
 }  // namespace
@@ -133,15 +132,20 @@ void add_contact_sections(StudyPage& page, const ContactPlan& plan, std::span<co
   std::vector<std::string> samples;
   for (const StudyVessel& vessel : plan.vessels())
     samples.push_back(fmt::format("{}: {}{}", vessel.name, vessel.sample, vessel.is_of_paper ? "" : " (not in \u201call\u201d)"));
-  page.words.push_back(
+  std::vector<std::string> words;
+  words.push_back(
       fmt::format("A sample of the paper's size has {} people, and these grasps. {}.", PAPER_PEOPLE, joined(samples, ", ")));
   if (!plan.unheld().empty())
-    page.words.push_back(
-        fmt::format("The mean person cannot hold {}: there everybody plans the roll 0.", joined(plan.unheld(), ", ")));
+    words.push_back(fmt::format("The mean person cannot hold {}: there everybody plans the roll 0.", joined(plan.unheld(), ", ")));
   for (const char* pose : STUDY_POSE_NAMES) {
-    StudySection section{pose, fmt::format("Contacts, pose {}", pose), {}, {}};
+    StudySection section{pose, fmt::format("Contacts, pose {}", pose), std::exchange(words, {}), {}};
     for (const StudyRow& row : rows)
       if (row.pose == pose) section.rows.push_back(row);
+    section.words.emplace_back(
+        "The tables of points predict the paper\u2019s Table 1: how each point\u2019s touch goes with the height and with the "
+        "distance, in words. The shares with projected points and roles predict the paper\u2019s projection rates. The "
+        "paper\u2019s "
+        "own numbers are not known here, and nothing is fitted to them.");
     section.write = write_contact_tables;
     page.sections.push_back(std::move(section));
   }

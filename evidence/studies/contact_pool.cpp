@@ -29,8 +29,27 @@ std::string pool_note(std::uint64_t people, std::uint64_t grasps_of_person) {
 }
 
 void VesselTallies::add(Grasps grasps) {
-  for (std::size_t v = 0; v < vessels_.size(); ++v)
-    for (std::size_t k = vessels_[v].first; k < vessels_[v].last; ++k) add(v, grasps[k]);
+  std::array<std::uint64_t, CONTACTS_OVER> of_paper{};
+  for (std::size_t v = 0; v < vessels_.size(); ++v) {
+    std::array<std::uint64_t, CONTACTS_OVER> of_vessel{};
+    for (std::size_t k = vessels_[v].first; k < vessels_[v].last; ++k) {
+      add(v, grasps[k]);
+      for (std::size_t over = 0; over < CONTACTS_OVER; ++over) of_vessel[over] += is_counted(grasps[k], ContactsOver{over}) ? 1 : 0;
+    }
+    for (std::size_t over = 0; over < CONTACTS_OVER; ++over) {
+      counts_[v][over].add_person(of_vessel[over]);
+      of_paper[over] += vessels_[v].is_of_paper ? of_vessel[over] : 0;
+    }
+  }
+  for (std::size_t over = 0; over < CONTACTS_OVER; ++over) counts_.back()[over].add_person(of_paper[over]);
+}
+
+std::vector<StudyCount> VesselTallies::counts() const {
+  std::vector<StudyCount> all;
+  for (const auto& of_vessel : counts_)
+    for (const ContactStatistic& statistic : contact_statistics())
+      all.push_back(of_vessel[static_cast<std::size_t>(statistic.over)]);
+  return all;
 }
 
 double VesselTallies::made_in_sample(std::size_t vessel) const {
@@ -65,7 +84,7 @@ Grasps ContactPool::of(std::uint64_t person, std::size_t pose) const {
 
 std::vector<std::vector<const ContactGrasp*>> ContactPool::draw(std::size_t pose, std::uint64_t seed) const {
   std::uint64_t state = seed;
-  const std::vector<std::size_t> people = draw_different(PAPER_PEOPLE, this->people(), state);
+  const std::vector<std::size_t> people = draw_people(PAPER_PEOPLE, this->people(), state);
   std::vector<std::vector<const ContactGrasp*>> drawn;
   for (const StudyVessel& vessel : vessels_) {
     std::vector<const ContactGrasp*>& grasps = drawn.emplace_back();

@@ -2,6 +2,7 @@
 // Grasps of many people by vessel: their statistics, and samples of the paper's size.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,6 +11,7 @@
 
 #include "evidence/studies/contact_plan.h"
 #include "evidence/studies/contact_tally.h"
+#include "evidence/studies/row.h"
 
 namespace wholehand {
 
@@ -27,20 +29,25 @@ using Grasps = std::span<const ContactGrasp>;  // of one person in one pose, in 
 class VesselTallies {
  public:
   // `vessels` and the plan must outlive it.
-  explicit VesselTallies(const std::vector<StudyVessel>& vessels) : vessels_(vessels), tallies_(vessels.size()) {}
+  explicit VesselTallies(const std::vector<StudyVessel>& vessels)
+      : vessels_(vessels), tallies_(vessels.size()), counts_(vessels.size() + 1) {}
   explicit VesselTallies(const ContactPlan& plan) : VesselTallies(plan.vessels()) {}
 
   void add(std::size_t vessel, const ContactGrasp& grasp) { tallies_[vessel].add(grasp); }
+  // Also counts the person.
   void add(Grasps grasps);
   // The values of contact_statistics(): vessel after vessel, then all of the paper's together. In the latter, a vessel's weight is the number of
   // grasps that a sample makes until enough of them hold, so that all grasps of a sample have equal weight.
   std::vector<double> values() const;
+  // The people and grasps behind each of them.
+  std::vector<StudyCount> counts() const;
 
  private:
   double made_in_sample(std::size_t vessel) const;
 
   const std::vector<StudyVessel>& vessels_;
   std::vector<ContactTally> tallies_;
+  std::vector<std::array<StudyCount, CONTACTS_OVER>> counts_;  // of each vessel, then of all of the paper's
 };
 
 // The grasps of the first people, in each pose.
@@ -54,7 +61,7 @@ class ContactPool {
   void add(const std::vector<ContactGrasp>& of_person);
   std::uint64_t people() const { return grasps_.size() / (slots_ * STUDY_POSES.size()); }
 
-  // The grasps of a sample of the paper's size in a pose, vessel by vessel in order: those of PAPER_PEOPLE people, none twice, in random order, until
+  // The grasps of a sample of the paper's size in a pose, vessel by vessel in order: those of PAPER_PEOPLE people (draw_people), in random order, until
   // as many hold as the vessel's sample has. If fewer hold, all grasps of these people. The pool has at least PAPER_PEOPLE people.
   std::vector<std::vector<const ContactGrasp*>> draw(std::size_t pose, std::uint64_t seed) const;
 

@@ -20,10 +20,14 @@ double r_of(const Correlation& correlation) { return correlation.r.value_or(ABSE
 double share(double yes, double all) { return all > 0 ? yes / all : ABSENT; }
 
 std::vector<ContactStatistic> all_statistics() {
-  std::vector<ContactStatistic> all{{"held_share", ""}, {"plausible_share", ""}, {"mean_fingers", ""}, {"mean_points", ""}};
+  std::vector<ContactStatistic> all{
+      {"held_share", "", ContactsOver::made}, {"plausible_share", ""}, {"mean_fingers", ""}, {"mean_points", ""}};
   for (const char* name : {"pearson_fingers_height", "pearson_fingers_distance", "pearson_points_height", "pearson_points_distance",
-                           "projected_share", "projected_tip_share", "projected_finger_share", "projected_inner_share",
-                           "grasps_projected_tip_share", "grasps_projected_finger_share", "grasps_projected_inner_share"})
+                           "projected_share"})
+    all.push_back({name, ""});
+  for (const char* name : {"projected_tip_share", "projected_finger_share", "projected_inner_share"})
+    all.push_back({name, "", ContactsOver::projected});
+  for (const char* name : {"grasps_projected_tip_share", "grasps_projected_finger_share", "grasps_projected_inner_share"})
     all.push_back({name, ""});
   for (const char* name : {"touch_share", "point_biserial_height", "point_biserial_distance"})
     for (int joint = 0; joint < JOINT_COUNT; ++joint) all.push_back({name, joint_key(joint)});
@@ -31,6 +35,11 @@ std::vector<ContactStatistic> all_statistics() {
 }
 
 }  // namespace
+
+bool is_counted(const ContactGrasp& grasp, ContactsOver over) {
+  if (over == ContactsOver::made) return true;
+  return grasp.is_held && (over == ContactsOver::held || (grasp.tip_mask | grasp.finger_mask | grasp.inner_mask) != 0);
+}
 
 const std::vector<ContactStatistic>& contact_statistics() {
   static const std::vector<ContactStatistic> all = all_statistics();

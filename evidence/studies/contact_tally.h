@@ -24,9 +24,15 @@ struct ContactGrasp {
   bool is_plausible = false;                                    // and no part of the hand is deep in the vessel
 };
 
+// The grasps that a statistic is taken over: all, those that hold, or those of them with a projected point.
+enum class ContactsOver : std::size_t { made, held, projected };
+constexpr std::size_t CONTACTS_OVER = 3;
+bool is_counted(const ContactGrasp& grasp, ContactsOver over);
+
 // A statistic of grasps, in one order for all tallies. `subject`: the point of the hand, or empty.
 struct ContactStatistic {
   std::string name, subject;
+  ContactsOver over = ContactsOver::held;
 };
 const std::vector<ContactStatistic>& contact_statistics();
 

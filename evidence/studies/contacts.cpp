@@ -24,8 +24,10 @@ constexpr std::uint64_t SAMPLES = 0x636f6e7461637473;  // keeps the samples' dra
 
 std::size_t grasps_of_person(const ContactPlan& plan) { return plan.grasps().size() * STUDY_POSES.size(); }
 
-void add_rows(const ContactPlan& plan, std::size_t pose, const std::vector<double>& values, const std::vector<Interval>& intervals,
+void add_rows(const ContactPlan& plan, std::size_t pose, const VesselTallies& tallies, const std::vector<Interval>& intervals,
               std::vector<StudyRow>& rows) {
+  const std::vector<double> values = tallies.values();
+  const std::vector<StudyCount> counts = tallies.counts();
   const auto& statistics = contact_statistics();
   std::vector<std::string> names;
   for (const StudyVessel& vessel : plan.vessels()) names.push_back(vessel.name);
@@ -35,13 +37,14 @@ void add_rows(const ContactPlan& plan, std::size_t pose, const std::vector<doubl
     for (std::size_t k = 0; k < statistics.size(); ++k) {
       const std::size_t at = v * statistics.size() + k;
       rows.push_back({"contacts", STUDY_POSE_NAMES[pose], names[v], statistics[k].name, statistics[k].subject, values[at],
-                      intervals[at], std::nullopt});
+                      intervals[at], std::nullopt, counts[at]});
     }
 }
 
 }  // namespace
 
-std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop) {
+std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop,
+                                           const ContactTaker& take) {
   const std::size_t slots = plan.grasps().size();
   std::vector<VesselTallies> tallies(STUDY_POSES.size(), VesselTallies(plan));
   ContactPool pool(plan, options.people.contacts);
@@ -64,6 +67,7 @@ std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyO
       for (std::size_t pose = 0; pose < STUDY_POSES.size(); ++pose) tallies[pose].add(Grasps(person).subspan(pose * slots, slots));
       pool.add(person);
       sensitivity.add(options.seed, done + k, person);
+      if (take) take(done + k, person);
     }
   }
   progress.clear();
@@ -75,7 +79,7 @@ std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyO
       if (!stop) samples[k] = pool.sample(pose, mixed_bits(mixed_bits(options.seed ^ SAMPLES) + k));
     });
     if (stop) return std::nullopt;
-    add_rows(plan, pose, tallies[pose].values(), sample_intervals(samples), study.rows);
+    add_rows(plan, pose, tallies[pose], sample_intervals(samples), study.rows);
   }
   study.sensitivity = sensitivity.rows();
   return study;

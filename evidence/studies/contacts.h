@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "evidence/studies/contact_plan.h"
@@ -20,7 +22,11 @@ struct ContactStudy {
   std::uint64_t grasps = 0;           // made, each in every pose
 };
 
-// The same bits for any number of threads. Absent: `stop` was set. Shows its progress.
-std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop);
+// Takes the grasps of a person (ContactPlan::of_person).
+using ContactTaker = std::function<void(std::uint64_t person, std::span<const ContactGrasp> grasps)>;
+
+// The same bits for any number of threads. Absent: `stop` was set. Shows its progress. `take` gets one person after the other, in order.
+std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop,
+                                           const ContactTaker& take = {});
 
 }  // namespace wholehand

@@ -111,6 +111,27 @@ std::vector<double> values_of(std::span<const ForcesOfPerson> people, Members me
   return values;
 }
 
+// Counts everybody, in the order of values_of; each trial is one grasp.
+std::vector<StudyCount> counts_of(std::span<const ForcesOfPerson> people) {
+  std::vector<StudyCount> counts;
+  for (std::size_t choice = 0; choice < FORCE_CHOICES; ++choice) {
+    StudyCount tried, gripped;
+    for (const ForcesOfPerson& person : people) {
+      tried.add_person(1);
+      gripped.add_person(person[choice].has_gripped ? 1 : 0);
+    }
+    counts.insert(counts.end(), force_events().size() + 1, gripped);
+    counts.push_back(tried);
+  }
+  StudyCount all;
+  for (const ForcesOfPerson& person : people)
+    all.add_person(static_cast<std::uint64_t>(
+        std::count_if(person.begin(), person.end(), [](const ForceOutcome& one) { return one.has_gripped; })));
+  for (const ForceEvent& event : force_events())
+    if (has_coefficients(event)) counts.insert(counts.end(), 3, all);
+  return counts;
+}
+
 struct ForceName {
   std::string statistic, subject;
   std::optional<double> paper;
@@ -145,15 +166,16 @@ std::vector<StudyRow> force_rows(std::span<const ForcesOfPerson> people, const s
     std::vector<std::vector<double>> samples(static_cast<std::size_t>(resamples));
     in_parallel(samples.size(), threads, [&](std::size_t k) {
       std::uint64_t state = mixed_bits(mixed_bits(seed ^ FORCE_SAMPLES) + k);
-      samples[k] = values_of(people, draw_members(FORCE_PEOPLE, people.size(), state));
+      samples[k] = values_of(people, draw_people(FORCE_PEOPLE, people.size(), state));
     });
     intervals = sample_intervals(samples);
   }
   std::vector<StudyRow> rows;
   const std::vector<ForceName> all = force_names();
+  const std::vector<StudyCount> counts = counts_of(people);
   for (std::size_t k = 0; k < all.size(); ++k)
     rows.push_back({"forces", "", vessel, all[k].statistic, all[k].subject, values[k],
-                    std::isnan(values[k]) ? Interval{} : intervals[k], all[k].paper});
+                    std::isnan(values[k]) ? Interval{} : intervals[k], all[k].paper, counts[k]});
   return rows;
 }
 

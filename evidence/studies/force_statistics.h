@@ -17,8 +17,7 @@ using ForcesOfPerson = std::array<ForceOutcome, FORCE_CHOICES>;  // by PAPER_CHO
 
 constexpr std::array<double, 3> OPENINGS{0.5e-3, 1e-3, 2e-3};  // m: openings whose shares are reported beside those of lost grips
 
-// Rows of the experiment "forces". Intervals are for ten people, drawn without replacement if there are many; NaN with fewer than ten. The same bits
-// for any number of threads.
+// Rows of the experiment "forces". Intervals are for ten people; NaN with fewer than ten. The same bits for any number of threads.
 std::vector<StudyRow> force_rows(std::span<const ForcesOfPerson> people, const std::string& vessel, std::uint64_t seed,
                                  int resamples, int threads);
 

@@ -9,11 +9,14 @@ namespace wholehand {
 
 struct StudyFiles {
   explicit StudyFiles(const std::string& folder);
-  std::string csv, nc, page, journal, lock;
+  std::string csv, nc, page, grasps, people, journal, lock;
 };
 
-// The first characters of the table: its columns.
-inline constexpr std::string_view STUDY_CSV_START = "experiment,pose,vessel,statistic,subject,value,low,high,paper,inside\n";
+// The first characters of the tables: columns.
+inline constexpr std::string_view STUDY_CSV_START = "experiment,pose,vessel,statistic,subject,value,low,high,paper,inside";
+inline constexpr std::string_view GRASPS_CSV_START =
+    "experiment,pose,vessel,subject,person,sex,hand_length_mm,hand_breadth_mm,grasp,";
+inline constexpr std::string_view PEOPLE_CSV_START = "person,sex,hand_length_mm,hand_breadth_mm,";
 // How the journal begins.
 inline constexpr std::string_view STUDY_JOURNAL_START = "wholehand study journal ";
 // The identifying mark in the page's head.

@@ -14,6 +14,10 @@ namespace {
 constexpr const char* STUDY_RULES = R"css(
 .charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1rem; }
 .charts figure { margin: 0; max-width: 34rem; }
+.answer svg { min-width: 44rem; max-width: 62rem; }
+svg .head { font-weight: 600; }
+svg .inside { fill: var(--good); stroke: var(--page); stroke-width: 0.8; }
+svg .outside { fill: var(--bad); stroke: var(--page); stroke-width: 0.8; }
 )css";
 
 void write_study_head(MarkupWriter& html, const StudyPage& page) {
@@ -63,12 +67,14 @@ std::string study_page(const StudyPage& page) {
   html.open("header").element("h1", page.title).element("p", page.lead, {{"class", "lead"}});
   html.close();
   html.open("main");
-  for (const std::string& words : page.words) html.element("p", words);
   write_contents(html, page);
   for (const StudySection& section : page.sections) write_section(html, section);
   html.close();
-  html.element("footer",
-               fmt::format("Written by wholehand {}. The numbers are in study.csv and study.nc beside this page.", version()));
+  html.element(
+      "footer",
+      fmt::format(
+          "Written by wholehand {}. The numbers are in study.csv and study.nc beside this page, the single grasps in grasps.csv.",
+          version()));
   html.close().close();
   return html.written();
 }

@@ -26,8 +26,7 @@ struct StudySection {
 
 struct StudyPage {
   std::string title;
-  std::string lead;                // one line under the title
-  std::vector<std::string> words;  // paragraphs before the sections
+  std::string lead;  // one line under the title
   std::vector<StudySection> sections;
   std::uint64_t seed = 1;
 };

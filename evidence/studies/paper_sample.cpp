@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/numbers/random_bits.h"
 #include "base/text/error.h"
 
@@ -35,19 +33,12 @@ std::uint64_t draw_below(std::uint64_t count, std::uint64_t& state) {
   return static_cast<std::uint64_t>(unit_interval(split_mix(state)) * static_cast<double>(count));
 }
 
-std::vector<std::size_t> draw_different(std::size_t count, std::size_t population, std::uint64_t& state) {
+std::vector<std::size_t> draw_people(std::size_t count, std::size_t known, std::uint64_t& state) {
   std::vector<std::size_t> drawn;
   while (drawn.size() < count) {
-    const std::size_t one = draw_below(population, state);
-    if (std::find(drawn.begin(), drawn.end(), one) == drawn.end()) drawn.push_back(one);
+    const std::size_t one = draw_below(known + drawn.size(), state);
+    drawn.push_back(one < known ? one : drawn[one - known]);
   }
-  return drawn;
-}
-
-std::vector<std::size_t> draw_members(std::size_t count, std::size_t population, std::uint64_t& state) {
-  if (population >= MANY_SAMPLES * count) return draw_different(count, population, state);
-  std::vector<std::size_t> drawn(count);
-  for (std::size_t& one : drawn) one = draw_below(population, state);
   return drawn;
 }
 

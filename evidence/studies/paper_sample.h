@@ -14,9 +14,6 @@ namespace wholehand {
 
 // The paper's people, and its grasps of each of the three vessels.
 constexpr std::size_t PAPER_PEOPLE = 17;
-// A population large enough for this many samples: a sample draws none twice. Samples of a smaller one would be too alike, and are drawn with
-// replacement.
-constexpr std::size_t MANY_SAMPLES = 10;
 constexpr std::array<std::size_t, 3> PAPER_GRASPS{22, 32, 18};
 
 // The vessel name of rows for all of the paper's vessels together.
@@ -32,10 +29,11 @@ std::vector<std::size_t> paper_vessels(const Scene& scene, SampleVessels which);
 // Throws Error (usage) if the name is ALL_VESSELS.
 void check_sample_name(const Scene& scene, const std::string& vessel);
 
-// `count` members out of `population`, none twice, in the order drawn. The population has at least as many.
-std::vector<std::size_t> draw_different(std::size_t count, std::size_t population, std::uint64_t& state);
-// The same for a large population (MANY_SAMPLES); for a smaller one, of at least one member, with replacement.
-std::vector<std::size_t> draw_members(std::size_t count, std::size_t population, std::uint64_t& state);
+// `count` people of a repetition, by their numbers below `known`, which is at least 1. The known people are a sample of all people themselves, so
+// their own error is drawn too: whoever is drawn goes back twice (Polya's urn, the predictive distribution of Rubin's Bayesian bootstrap, 1981). The
+// mean of a trait in a repetition has the variance (1 / count + 1 / known) of the trait's, but for a factor (known - 1) / (known + 1); drawn without
+// replacement it would have (1 / count - 1 / known), although the people of a repetition are none of the known.
+std::vector<std::size_t> draw_people(std::size_t count, std::size_t known, std::uint64_t& state);
 
 // The next number below `count`, which is at least 1.
 std::uint64_t draw_below(std::uint64_t count, std::uint64_t& state);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/files/checksum.h"
@@ -20,12 +21,14 @@
 #include "device/advice/adviser.h"
 #include "device/loop/gains.h"
 #include "evidence/studies/advice_statistics.h"
+#include "evidence/studies/answer.h"
 #include "evidence/studies/contact_page.h"
 #include "evidence/studies/contact_pool.h"
 #include "evidence/studies/contacts.h"
 #include "evidence/studies/folder.h"
 #include "evidence/studies/force_page.h"
 #include "evidence/studies/forces.h"
+#include "evidence/studies/grasp_table.h"
 #include "evidence/studies/journal.h"
 #include "evidence/studies/page.h"
 #include "evidence/studies/paper_sample.h"
@@ -77,7 +80,7 @@ class StudyRun {
       device::advice_scene(scene);  // refuses a scene without strengths
       check_live(scene);
     }
-    folder_.emplace(options.folder);
+    folder_.emplace(options.folder, contacts_ ? options.people.contacts * contacts_->grasps().size() * STUDY_POSES.size() : 0);
     page_.title = study_title(scene);
     page_.seed = options.seed;
   }
@@ -92,34 +95,48 @@ class StudyRun {
       return ExitCode::interrupted;
     }
     if (!sensitivity_.empty()) page_.sections.push_back(sensitivity_section(sensitivity_));
-    page_.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", joined(lead_, "; "),
-                             readable_number(static_cast<std::uint64_t>(options_.resamples)), options_.seed);
+    const std::string note = few_people_note(fewest_people());
+    page_.lead =
+        fmt::format("{}, and {} samples of the paper's size; seed {}.{}", joined(lead_, "; "),
+                    readable_number(static_cast<std::uint64_t>(options_.resamples)), options_.seed, note.empty() ? "" : " " + note);
     const std::string inside = count_inside(rows_).of > 0 ? inside_sentence(rows_) : "";
     StudyRow share;
     share.experiment = share.vessel = ALL_VESSELS;
     share.statistic = INSIDE_SHARE;
     share.value = inside_share(rows_);
+    page_.sections.insert(page_.sections.begin(), answer_section(rows_));
     rows_.insert(rows_.end(), sensitivity_.begin(), sensitivity_.end());
-    if (!inside.empty()) {
-      page_.words.insert(page_.words.begin(), "All experiments together: " + inside);
-      rows_.push_back(share);
-    }
+    if (!inside.empty()) rows_.push_back(share);
+    const StudyPeople& people = options_.people;
+    folder_->add_people(scene_.people, options_.seed, std::max({people.contacts, people.forces, people.sessions, people.advice}));
     folder_->write(scene_, options_, page_, rows_);
     print(study_summary(rows_));
     if (!inside.empty()) print("\nAll experiments: " + inside + "\n");
+    if (!note.empty()) print("\n" + note + "\n");
     print("\n" + folder_->written() + "\n");
     end_journal();
     return ExitCode::done;
   }
 
  private:
+  // The smallest number of people in an experiment that runs.
+  std::uint64_t fewest_people() const {
+    const StudyPeople& people = options_.people;
+    std::uint64_t fewest = 0;
+    for (const std::uint64_t count : {people.contacts, people.forces, people.sessions, people.advice})
+      if (count > 0 && (fewest == 0 || count < fewest)) fewest = count;
+    return fewest;
+  }
+
   // Shares over all people of the sessions, which have no interval at the paper's sample size.
-  static void add_share(std::vector<StudyRow>& rows, const char* statistic, std::uint64_t yes, std::uint64_t of) {
+  static void add_share(std::vector<StudyRow>& rows, std::uint64_t people, const char* statistic, std::uint64_t yes,
+                        std::uint64_t of) {
     StudyRow row;
     row.experiment = "sessions";
     row.vessel = ALL_VESSELS;
     row.statistic = statistic;
     row.value = static_cast<double>(yes) / static_cast<double>(of);
+    row.count.people = people;
     rows.push_back(row);
   }
 
@@ -190,7 +207,10 @@ class StudyRun {
     if (!contacts_->unheld().empty())
       print_note(
           fmt::format("the mean person cannot hold {}: there everybody plans the roll 0", joined(contacts_->unheld(), ", ")));
-    std::optional<ContactStudy> study = study_contacts(*contacts_, options_, *stop_);
+    std::optional<ContactStudy> study =
+        study_contacts(*contacts_, options_, *stop_, [this](std::uint64_t person, std::span<const ContactGrasp> made) {
+          folder_->add_grasps(contact_grasp_rows(*contacts_, table_person(scene_.people, options_.seed, person), made));
+        });
     if (!study) return false;
     add_contact_sections(page_, *contacts_, study->rows);
     lead_.push_back(fmt::format("contacts: {} with {} each", counted(people, "virtual person", "virtual people"), grasps));
@@ -208,7 +228,10 @@ class StudyRun {
     });
     if (*stop_) return false;
     std::vector<ForcesOfPerson> found;
-    for (const auto& of_person : numbers) found.push_back(forces_from_numbers(of_person));
+    for (const auto& of_person : numbers) {
+      found.push_back(forces_from_numbers(of_person));
+      folder_->add_grasps(force_grasp_rows(vessel, table_person(scene_.people, options_.seed, found.size() - 1), found.back()));
+    }
     const auto gripped = std::count_if(found.begin(), found.end(), [](const ForcesOfPerson& forces) {
       return std::all_of(forces.begin(), forces.end(), [](const ForceOutcome& one) { return one.has_gripped; });
     });
@@ -236,14 +259,15 @@ class StudyRun {
       PersonSessions sessions = sessions_from_numbers(of_person);
       broken += static_cast<std::uint64_t>(sessions.broken);
       without += sessions.grasps.empty() ? 1 : 0;
+      folder_->add_grasps(session_grasp_rows(scene_, table_person(scene_.people, options_.seed, found.size()), sessions.grasps));
       found.push_back({std::move(sessions.grasps)});
     }
     if (broken > 0)
       print_note(
           fmt::format("{} did not come to an end by themselves; what was done until then counts", counted(broken, "session")));
     std::vector<StudyRow> rows = session_rows(found, session_vessels_, {options_.seed, options_.resamples, options_.threads, true});
-    add_share(rows, "people_with_grasps_share", people - without, people);
-    add_share(rows, "whole_sessions_share", people * SESSIONS_PER_PERSON - broken, people * SESSIONS_PER_PERSON);
+    add_share(rows, people, "people_with_grasps_share", people - without, people);
+    add_share(rows, people, "whole_sessions_share", people * SESSIONS_PER_PERSON - broken, people * SESSIONS_PER_PERSON);
     page_.sections.push_back(session_section(session_vessels_, rows, true));
     page_.sections.back().charts = session_charts(found, session_vessels_, rows);
     lead_.push_back(fmt::format("sessions: {}, {} each", counted(people, "person", "people"), SESSIONS_PER_PERSON));

@@ -17,8 +17,15 @@ std::vector<StudyRow> sensitivity_rows(const std::string& experiment, std::span<
   for (std::size_t k = 0; k < outputs.size(); ++k)
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       const SensitivityIndex index = indices.first_order(k, i);
-      rows.push_back(
-          {experiment, "", ALL_VESSELS, FIRST_ORDER_OF + outputs[k], inputs[i], index.first, index.interval, std::nullopt});
+      rows.push_back({experiment,
+                      "",
+                      ALL_VESSELS,
+                      FIRST_ORDER_OF + outputs[k],
+                      inputs[i],
+                      index.first,
+                      index.interval,
+                      std::nullopt,
+                      {indices.values(k)}});
     }
   return rows;
 }

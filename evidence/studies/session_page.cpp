@@ -25,11 +25,9 @@ StudySection session_section(const SessionVessels& vessels, std::vector<StudyRow
       "Forces before, during and after the tilt, the times of tilting and maintaining, and the forces at first are of the grasps "
       "that are tilted by 30 degrees or more. The increase of the normal force, the types, and whether the grip rises are of the "
       "grasps that have a type. All other numbers are of all grasps.",
-      are_simulated
-          ? "The people are virtual. They tilt as fast as the paper's people did, so the paper's tilt time is nothing to "
-            "compare with."
-          : "The people are those of the recordings, one person each. A sample of 17 draws them with replacement, so with few "
-            "recordings the intervals are too narrow."};
+      are_simulated ? "The people are virtual. They tilt as fast as the paper's people did, so the paper's tilt time is nothing to "
+                      "compare with."
+                    : "The people are those of the recordings, one person each."};
   section.rows = std::move(rows);
   return section;
 }

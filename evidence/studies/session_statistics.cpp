@@ -99,6 +99,10 @@ struct BetweenVessels {
 };
 const std::array<BetweenVessels, 4> BETWEEN{{{"anova_f"}, {"anova_p"}, {"anova_share"}, {"ordered_as_paper", 1}}};
 
+bool counts(const Measure& measure, const device::GraspReport& grasp) {
+  return std::isfinite(measure.number(grasp)) && (!measure.with || std::isfinite(measure.with(grasp)));
+}
+
 double value_of(const Measure& measure, const GraspList& grasps) {
   if (measure.summary != Summary::correlation) {
     device::MeanSum sum;
@@ -108,10 +112,9 @@ double value_of(const Measure& measure, const GraspList& grasps) {
   }
   std::vector<double> x, y;
   for (const device::GraspReport* grasp : grasps) {
-    const double one = measure.number(*grasp), other = measure.with(*grasp);
-    if (!std::isfinite(one) || !std::isfinite(other)) continue;
-    x.push_back(one);
-    y.push_back(other);
+    if (!counts(measure, *grasp)) continue;
+    x.push_back(measure.number(*grasp));
+    y.push_back(measure.with(*grasp));
   }
   return pearson(x, y).r.value_or(NO_VALUE);
 }
@@ -148,6 +151,22 @@ std::vector<double> values_of(const GraspsByVessel& grasps) {
   return values;
 }
 
+// How many of one person's grasps count for each statistic, in the order of values_of.
+std::vector<std::uint64_t> counts_of(const GraspsByVessel& grasps) {
+  std::vector<std::uint64_t> counted;
+  const auto count = [](const Measure& measure, const GraspList& list) {
+    return static_cast<std::uint64_t>(
+        std::count_if(list.begin(), list.end(), [&](const device::GraspReport* grasp) { return counts(measure, *grasp); }));
+  };
+  GraspList all;
+  for (const GraspList& of_vessel : grasps) all.insert(all.end(), of_vessel.begin(), of_vessel.end());
+  for (const OfAll& statistic : OF_ALL) counted.push_back(count(statistic.measure, all));
+  counted.insert(counted.end(), BETWEEN.size(), count({"", Summary::mean, normal_increase}, all));
+  for (const GraspList& of_vessel : grasps)
+    for (const OfVessel& statistic : OF_VESSEL) counted.push_back(count(statistic.measure, of_vessel));
+  return counted;
+}
+
 // ---- the population and its samples ----
 
 class GraspPool {
@@ -167,12 +186,19 @@ class GraspPool {
     return grasps;
   }
 
-  // 17 people: each once of a large population, else drawn with replacement, as for a bootstrap. Each vessel has as many of
-  // their grasps as in the paper; all where there are fewer.
+  // Adds each person's counts to the rows, which are in the order of values_of.
+  void count(std::vector<StudyRow>& rows) const {
+    for (const GraspsByVessel& grasps : subjects_) {
+      const std::vector<std::uint64_t> counted = counts_of(grasps);
+      for (std::size_t k = 0; k < counted.size(); ++k) rows[k].count.add_person(counted[k]);
+    }
+  }
+
+  // Draws 17 people. Each vessel has as many of their grasps as in the paper; all where there are fewer.
   GraspsByVessel sample(std::uint64_t seed) const {
     std::uint64_t state = seed;
     GraspsByVessel grasps(vessels_);
-    for (const std::size_t subject : draw_members(PAPER_PEOPLE, subjects_.size(), state)) add(subject, grasps);
+    for (const std::size_t subject : draw_people(PAPER_PEOPLE, subjects_.size(), state)) add(subject, grasps);
     for (std::size_t v = 0; v < vessels_; ++v) {
       GraspList& open = grasps[v];
       if (open.size() <= PAPER_GRASPS[v]) continue;
@@ -219,6 +245,13 @@ std::vector<StudyRow> empty_rows(const SessionVessels& vessels, bool are_simulat
 
 }  // namespace
 
+std::string few_people_note(std::size_t people) {
+  return people < LEAST_SUBJECTS || people >= ENOUGH_SUBJECTS
+             ? ""
+             : fmt::format("The intervals of fewer than {} people are too narrow, and a value may be outside of its own.",
+                           ENOUGH_SUBJECTS);
+}
+
 SessionVessels session_vessels(const Scene& scene) {
   SessionVessels vessels;
   for (const std::size_t place : paper_vessels(scene, SampleVessels::any)) {
@@ -237,6 +270,7 @@ std::vector<StudyRow> session_rows(std::span<const SessionSubject> subjects, con
   std::vector<StudyRow> rows = empty_rows(vessels, sampling.are_simulated);
   const std::vector<double> values = values_of(pool.all());
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].value = values[k];
+  pool.count(rows);
   if (subjects.size() >= LEAST_SUBJECTS) {
     std::vector<std::vector<double>> samples(static_cast<std::size_t>(sampling.resamples));
     in_parallel(samples.size(), sampling.threads, [&](std::size_t k) {

@@ -17,6 +17,10 @@ namespace wholehand {
 
 // Fewer people than this have no intervals.
 constexpr std::size_t LEAST_SUBJECTS = 3;
+// Fewer people do not show how much people differ: their intervals hold less than 93 % of repetitions (docs/study.md).
+constexpr std::size_t ENOUGH_SUBJECTS = 50;
+// A warning for the reader; empty from ENOUGH_SUBJECTS on, and where there are no intervals.
+std::string few_people_note(std::size_t people);
 
 // A vessel of the scene that stands for one of the paper's.
 struct SessionVessel {

@@ -22,7 +22,7 @@ struct PersonSessions {
 // Ends early if `stop` is set.
 PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop);
 
-// As numbers, to the bit, for a journal.
+// As numbers, to the bit, for a journal; without the grips, which no statistic of a study takes.
 std::vector<double> to_numbers(const PersonSessions& sessions);
 PersonSessions sessions_from_numbers(const std::vector<double>& numbers);
 

@@ -33,12 +33,17 @@ constexpr std::array<StatisticWords, 16> WHOLE_WORDS{{
     {"lost_share", "lost grips"},
 }};
 
-// What a name begins with, and its unit.
+// What a mean's or deviation's name begins with, and its unit.
 struct MeasureUnit {
   const char *start, *unit;
 };
-constexpr std::array<MeasureUnit, 5> UNITS{
-    {{"response_time", "s"}, {"tilt_time", "s"}, {"maintained_time", "s"}, {"grip_", "N"}, {"normal_increase", "N"}}};
+constexpr std::array<MeasureUnit, 7> UNITS{{{"response_time", "s"},
+                                            {"tilt_time", "s"},
+                                            {"maintained_time", "s"},
+                                            {"time_", "s"},
+                                            {"grip_", "N"},
+                                            {"normal_increase", "N"},
+                                            {"largest_opening", "m"}}};
 
 bool is_share(const std::string& statistic) { return statistic.ends_with("_share"); }
 
@@ -52,15 +57,22 @@ std::string without_underscores(std::string name) {
 std::string statistic_words(const std::string& statistic) {
   for (const StatisticWords& known : WHOLE_WORDS)
     if (statistic == known.statistic) return known.words;
-  const auto unit = std::find_if(UNITS.begin(), UNITS.end(), [&](const MeasureUnit& u) { return statistic.starts_with(u.start); });
+  const std::string unit = statistic_unit(statistic);
   for (const char* end : {"_mean", "_deviation"}) {
-    if (unit == UNITS.end() || !statistic.ends_with(end)) continue;
+    if (unit == "1" || !statistic.ends_with(end)) continue;
     const std::string measure = statistic.substr(0, statistic.size() - std::string(end).size());
-    return fmt::format("{}, {} ({})", without_underscores(measure), end + 1, unit->unit);
+    return fmt::format("{}, {} ({})", without_underscores(measure), end + 1, unit);
   }
   // the share of a type of the paper: "G1"
   if (statistic.size() == 8 && statistic[0] == 'g' && is_share(statistic)) return fmt::format("type G{}", statistic[1]);
   return without_underscores(statistic);
+}
+
+std::string statistic_unit(const std::string& statistic) {
+  if (statistic.starts_with("coefficient_")) return "N-1";
+  if (!statistic.ends_with("_mean") && !statistic.ends_with("_deviation")) return "1";
+  const auto found = std::find_if(UNITS.begin(), UNITS.end(), [&](const MeasureUnit& u) { return statistic.starts_with(u.start); });
+  return found == UNITS.end() ? "1" : found->unit;
 }
 
 std::string statistic_value(const std::string& statistic, double value) {

@@ -12,6 +12,9 @@ namespace wholehand {
 // "response_time_mean" becomes "response time, mean (s)". An unknown statistic is its name without underscores.
 std::string statistic_words(const std::string& statistic);
 
+// The unit of a statistic's value in the files, as in a result: "s", "N", "m", "N-1" (per newton), "1".
+std::string statistic_unit(const std::string& statistic);
+
 // A value of this statistic: "0.106", "8.2 %", "-" if there is none.
 std::string statistic_value(const std::string& statistic, double value);
 

@@ -15,8 +15,8 @@
 namespace wholehand {
 namespace {
 
-constexpr std::array<const char*, 5> SHOWN{"held_share", "mean_fingers", "pearson_fingers_height", "pearson_fingers_distance",
-                                           "projected_share"};
+constexpr std::array<const char*, 5> SUMMARIZED{"held_share", "mean_fingers", "pearson_fingers_height", "pearson_fingers_distance",
+                                                "projected_share"};
 
 std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
 
@@ -24,11 +24,11 @@ std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("
 std::string contact_summary(std::span<const StudyRow> rows) {
   std::string text = fmt::format("\n{:<12} {:<16} {:>6} {:>8} {:>17} {:>19} {:>10}\n", "pose", "vessel", "held", "fingers",
                                  "r fingers, height", "r fingers, distance", "projected");
-  std::array<std::string, SHOWN.size()> cells;
+  std::array<std::string, SUMMARIZED.size()> cells;
   for (const StudyRow& row : rows) {
     if (!row.subject.empty()) continue;
-    for (std::size_t k = 0; k < SHOWN.size(); ++k)
-      if (row.statistic == SHOWN[k]) cells[k] = shown(row.value);
+    for (std::size_t k = 0; k < SUMMARIZED.size(); ++k)
+      if (row.statistic == SUMMARIZED[k]) cells[k] = shown(row.value);
     // the last of a vessel's
     if (row.statistic == "grasps_projected_inner_share")
       text += fmt::format("{:<12} {:<16} {:>6} {:>8} {:>17} {:>19} {:>10}\n", row.pose, row.vessel, cells[0], cells[1], cells[2],

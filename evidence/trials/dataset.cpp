@@ -66,6 +66,11 @@ class Dataset {
     file_.text(NC_GLOBAL, "program", "wholehand");
     file_.text(NC_GLOBAL, "version", version());
     file_.text(NC_GLOBAL, "engine", origin.engine);
+    std::string forms;
+    for (std::size_t v = 0; v < tried_.forms.size(); ++v)
+      if (!tried_.forms[v].empty())
+        forms += fmt::format("{}{}: {}", forms.empty() ? "" : "; ", scene.vessels[v].name, tried_.forms[v]);
+    if (!forms.empty()) file_.text(NC_GLOBAL, "forms", forms);
     file_.text(NC_GLOBAL, "identity", origin.identity);
     file_.text(NC_GLOBAL, "scene", scene.text);
     file_.text(NC_GLOBAL, "seed", fmt::format("{}", options.seed));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/joints.h"
 #include "core/load.h"
@@ -70,10 +71,14 @@ RigidLoad mirrored_load(RigidLoad load, Handedness handedness) {
 }  // namespace
 
 BodyForm trial_form(const Scene& scene, std::size_t vessel) {
-  std::vector<ConvexPiece> pieces = convex_pieces(scene.vessels.at(vessel));
-  for (ConvexPiece& piece : pieces)
+  const VesselData& data = scene.vessels.at(vessel);
+  VesselForm form = vessel_form(data, std::filesystem::path(scene.file).parent_path().string());
+  for (ConvexPiece& piece : form.pieces)
     for (Triple& p : piece.vertices) p = mirrored(p, scene.hand.handedness);
-  return body_form(pieces);
+  BodyForm body = body_form(form.pieces);
+  body.error = form.error;
+  if (data.mesh) body.text = form_text(form);
+  return body;
 }
 
 GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings,
@@ -97,7 +102,9 @@ GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Eva
   setup.form = form;
   setup.grasp = is_articulated_ ? articulated_hand(hand, scene.hand, mirrored_hand(result_.joints, side), posed_, scale, contacts_)
                                 : sliding_contacts(contact_radii(scene.hand, contacts_, scale), contacts_);
-  setup.distance = [&evaluator, vessel, side](const Vec3& p) { return evaluator.distance(vessel, mirrored(to_triple(p), side)); };
+  setup.distance = [&evaluator, vessel, side, error = form.error](const Vec3& p) {
+    return evaluator.distance(vessel, mirrored(to_triple(p), side)) - error;
+  };
   setup.friction = friction_;
   setup.torsion = torsion_;
   setup.load = mirrored_load(vessel_load_.at(0, 0, settings.mass), side);

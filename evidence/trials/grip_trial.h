@@ -17,7 +17,7 @@ constexpr double CLOSE_TIME = 0.25,
 constexpr double SETTLE_TIME = 0.5;        // s after that; a loss in this time is a loss at the release
 constexpr double STATE_STEP = radians(5);  // between the tilts at which load and forces are computed; others are interpolated
 
-// What touches the hand of a vessel, for a right hand: the same for every grip. Throws Error as convex_pieces.
+// What touches the hand of a vessel, for a right hand: the same for every grip. Throws Error as vessel_form.
 BodyForm trial_form(const Scene& scene, std::size_t vessel);
 
 // Not thread-safe; use one per thread. All arguments except the form must outlive it.

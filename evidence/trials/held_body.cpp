@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace wholehand {
 namespace {
@@ -22,6 +23,16 @@ Vec3 turned_by(const mjtNum* m, const Vec3& v) {
 }
 Vec3 turned_back(const mjtNum* m, const Vec3& v) {
   return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z, m[2] * v.x + m[5] * v.y + m[8] * v.z};
+}
+
+// The largest distance along an axis of a point outside a box: at most its distance.
+double box_distance(const std::array<Triple, 2>& box, const Vec3& p) {
+  double outside = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    outside = std::max({outside, box[0][i] - p[axis], p[axis] - box[1][i]});
+  }
+  return outside;
 }
 
 std::string pair_text(const HeldSetup& setup, std::size_t hand, std::size_t body) {
@@ -72,7 +83,7 @@ std::string model_text(const HeldSetup& setup) {
   for (const auto& [hand, body] : setup.pairs) pairs += pair_text(setup, hand, body);
   // the body's mass is set later; a separate inertial frame keeps the engine from shortcuts that would then be wrong
   return fmt::format(
-      "<mujoco><compiler angle=\"radian\"/><size njmax=\"{}\" nconmax=\"{}\" nstack=\"500000\"/>\n"
+      "<mujoco><compiler angle=\"radian\"/><size njmax=\"{}\" nconmax=\"{}\" nstack=\"{}\"/>\n"
       "<option timestep=\"{}\" gravity=\"0 0 0\" cone=\"elliptic\" impratio=\"10\" iterations=\"100\" tolerance=\"1e-12\" "
       "noslip_iterations=\"10\" noslip_tolerance=\"1e-12\" collision=\"predefined\" jacobian=\"dense\" solver=\"Newton\"><flag "
       "multiccd=\"enable\"/></option>\n"
@@ -81,8 +92,8 @@ std::string model_text(const HeldSetup& setup) {
       "0\"/>\n"
       "{}</body>\n{}</worldbody>\n<contact>\n{}</contact>\n"
       "<equality><weld name=\"pin\" body1=\"vessel\" solref=\"0.004 1\" solimp=\"0.99 0.999 0.0001\"/></equality></mujoco>\n",
-      4 * setup.most_contacts + 100, setup.most_contacts, TIME_STEP, FLESH, setup.form.assets, setup.form.geoms, setup.grasp.bodies,
-      pairs);
+      4 * setup.most_contacts + 100, setup.most_contacts, setup.most_contacts > MOST_CONTACTS ? 4'000'000 : 500'000, TIME_STEP,
+      FLESH, setup.form.assets, setup.form.geoms, setup.grasp.bodies, pairs);
 }
 
 HeldBody::HeldBody(const MujocoLibrary& library, const HeldSetup& setup)
@@ -91,11 +102,14 @@ HeldBody::HeldBody(const MujocoLibrary& library, const HeldSetup& setup)
       rest_(joints_.size(), 0.0),
       distance_(setup.form.boxes.empty() ? nullptr : setup.distance),
       boxes_(setup.form.boxes) {
+  if (!boxes_.empty()) whole_box_ = boxes_.front();
   for (const auto& box : boxes_) {
     Vec3 farthest(0);
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<std::size_t>(axis);
       farthest[axis] = std::max(std::abs(box[0][i]), std::abs(box[1][i]));
+      whole_box_[0][i] = std::min(whole_box_[0][i], box[0][i]);
+      whole_box_[1][i] = std::max(whole_box_[1][i], box[1][i]);
     }
     body_reach_ = std::max(body_reach_, glm::length(farthest));
   }
@@ -154,27 +168,22 @@ void HeldBody::release() {
   time_ = 0;
 }
 
-// Balls along a geom's axis, each wider than the geom by half of their spacing, enclose it: if none of them is near, the geom is not.
-bool HeldBody::is_near(int geom, const std::array<Triple, 2>* box) {
+// Balls along a geom's axis, each wider than the geom by half of their spacing, enclose it: if none of them is near the body, the geom is not.
+HeldBody::NearBalls HeldBody::near_balls(int geom) {
   constexpr double APART = 8e-3;  // m
   const mjModel& m = simulation_.model();
   const mjData& d = simulation_.data();
   const double half = m.geom_type[geom] == mjGEOM_CAPSULE ? m.geom_size[3 * geom + 1] : 0;
   const int count = 1 + static_cast<int>(std::ceil(2 * half / APART));
-  const double reach = m.geom_size[3 * geom] + half / count + NEAR;
+  NearBalls balls{m.geom_size[3 * geom] + half / count + NEAR, {}};
   const mjtNum* frame = d.geom_xmat + 9 * geom;
   for (int k = 0; k < count; ++k) {
     const double along = half * ((2 * k + 1.0) / count - 1);
     const Vec3 place = column(d.geom_xpos + 3 * geom) + along * Vec3(frame[2], frame[5], frame[8]);
     const Vec3 local = turned_back(d.xmat + 9 * body_, place - column(d.xpos + 3 * body_));
-    double outside = 0;
-    for (int axis = 0; box && axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      outside = std::max({outside, (*box)[0][i] - local[axis], local[axis] - (*box)[1][i]});
-    }
-    if (outside < reach && distance_(local) < reach) return true;
+    if (box_distance(whole_box_, local) < balls.reach && distance_(local) < balls.reach) balls.centers.push_back(local);
   }
-  return false;
+  return balls;
 }
 
 // The largest approach of a point of the hand and one of the body in the last step, m.
@@ -193,13 +202,19 @@ void HeldBody::collide_near_pairs() {
   mjModel& m = simulation_.model();
   steps_ = 0;
   nearer_ = last_step_;
+  std::vector<std::optional<NearBalls>> found(geom_place_.size());  // by id
+  const auto is_near = [&](int hand, std::size_t box) {
+    auto& balls = found[static_cast<std::size_t>(hand)];
+    if (!balls) balls = near_balls(hand);
+    return std::any_of(balls->centers.begin(), balls->centers.end(), [&](const Vec3& center) {
+      return box >= boxes_.size() || box_distance(boxes_[box], center) < balls->reach;
+    });
+  };
   for (int k = 0; k < m.npair; ++k) {
     const bool is_first = geom_place_[static_cast<std::size_t>(m.pair_geom1[k])] >= 0;
     const int hand = is_first ? m.pair_geom1[k] : m.pair_geom2[k], body = is_first ? m.pair_geom2[k] : m.pair_geom1[k];
     const auto box = static_cast<std::size_t>(box_place_[static_cast<std::size_t>(body)]);
-    m.pair_margin[k] = last_step_ >= SURE || is_near(hand, box < boxes_.size() ? &boxes_[box] : nullptr)
-                           ? 0
-                           : -(m.geom_rbound[hand] + m.geom_rbound[body]);
+    m.pair_margin[k] = last_step_ >= SURE || is_near(hand, box) ? 0 : -(m.geom_rbound[hand] + m.geom_rbound[body]);
   }
 }
 

@@ -21,12 +21,15 @@ constexpr double TIME_STEP = 2e-3;  // s
 // may have approached by SURE since, so that no touching pair is left out.
 constexpr double NEAR = 5e-3, SURE = 4e-3;  // m; the difference exceeds the error of a lattice's distance
 constexpr int NEAR_STEPS = 5;
-constexpr int MOST_CONTACTS = 100;  // six with four points each take 24
+constexpr int MOST_CONTACTS = 100;        // six with four points each take 24
+constexpr int MOST_PIECE_CONTACTS = 300;  // of a body of many pieces, of which a finger touches some at a time
 
 // What touches the hand of a body: XML and the names of its geoms.
 struct BodyForm {
   std::string assets, geoms;
   std::vector<std::string> names;
+  double error = 0;                          // m, by which a piece may lie outside the body whose distance is asked
+  std::string text;                          // the line about the pieces; empty: none
   std::vector<std::array<Triple, 2>> boxes;  // low and high corner of each, in the body's frame, m; none: unknown
 };
 BodyForm body_form(std::span<const ConvexPiece> pieces);
@@ -93,7 +96,12 @@ class HeldBody {
   core_f64::Vec3 point_of(int body, const core_f64::Vec3& local);
   void collide_near_pairs();
   double largest_step();
-  bool is_near(int geom, const std::array<Triple, 2>* box);
+  // Balls about a geom of the hand that may be near the body, in the body's frame; each with its reach.
+  struct NearBalls {
+    double reach = 0;
+    std::vector<core_f64::Vec3> centers;
+  };
+  NearBalls near_balls(int geom);
 
   Simulation simulation_;
   std::vector<GraspJoint> joints_;
@@ -110,7 +118,8 @@ class HeldBody {
   double body_reach_ = 0;  // m, of the body's farthest point from its origin
   std::function<double(const core_f64::Vec3&)> distance_;
   std::vector<std::array<Triple, 2>> boxes_;
-  std::vector<int> box_place_;  // index of a geom in the body's list, by id
+  std::array<Triple, 2> whole_box_{};  // of all boxes
+  std::vector<int> box_place_;         // index of a geom in the body's list, by id
 };
 
 // The engine's text of a setup.

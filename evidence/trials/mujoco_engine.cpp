@@ -11,6 +11,8 @@
 namespace wholehand {
 namespace {
 
+constexpr std::size_t FEW_PIECES = 8;
+
 class MujocoEngine final : public TrialEngine {
  public:
   MujocoEngine(const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings)
@@ -23,13 +25,17 @@ class MujocoEngine final : public TrialEngine {
     form(vessel);
   }
 
+  std::string form_text(std::size_t vessel) const override { return form(vessel).text; }
+
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                 std::vector<TrialTrack>* tracks) const override {
     check_hand();
     std::vector<TrialOutcome> outcomes(cases.size());
     if (tracks) tracks->assign(cases.size(), {});
     // a model of its own for every grip and every call, so that other threads do not change the bits
-    GripTrial trial(library_, scene_, evaluator_, settings_, vessel, form(vessel), grip);
+    const BodyForm& body = form(vessel);
+    const int room = body.names.size() > FEW_PIECES ? MOST_PIECE_CONTACTS : MOST_CONTACTS;
+    GripTrial trial(library_, scene_, evaluator_, settings_, vessel, body, grip, room);
     tilt(trial, cases, outcomes, tracks);
     push(trial, cases, outcomes, tracks);
     return outcomes;
@@ -43,7 +49,7 @@ class MujocoEngine final : public TrialEngine {
         "\"articulated\" or \"rigged\"");
   }
 
-  // Made on first use, because testing whether a large mesh is convex takes seconds.
+  // Made on first use, because the pieces of a mesh take seconds.
   const BodyForm& form(std::size_t vessel) const {
     const std::lock_guard guard(making_forms_);
     const auto known = forms_.find(vessel);

@@ -165,6 +165,7 @@ void write_trial_setup(MarkupWriter& html, const TrialPageSource& source) {
     const std::string pushed = listed_values(cases, TrialProtocol::six_forces, [](const TrialCase& one) { return one.fill; });
     std::string text = fills.empty() ? "" : fmt::format("fill-tilt at the fills {} and the tilts {}°", fills, tilts);
     if (!pushed.empty()) text += fmt::format("{}six-forces at the fill {}", text.empty() ? "" : "; ", pushed);
+    if (v < source.tried.forms.size() && !source.tried.forms[v].empty()) text += "; the vessel is " + source.tried.forms[v];
     fact(source.scene.vessels[v].name, text);
   }
   if (!std::isnan(settings.mass)) fact("mass", fmt::format("{} kg in every state", plain_number(settings.mass)));

@@ -2,6 +2,7 @@
 #include "evidence/trials/run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -79,6 +80,7 @@ TrialIdentity identity_of(const Scene& scene, const TrialOptions& options, const
           {"number of deviations", fmt::format("{}", options.scatter)},
           {"seed", fmt::format("{}", options.seed)},
           {"engine", engine.name()},
+          {"form of the vessels", checksum_of(fmt::format("{}", fmt::join(tried.forms, "; ")))},
           {JOURNAL_BUILD, fmt::format("{} {}", version(), build_id())}};
 }
 
@@ -110,6 +112,7 @@ class Trials {
     find_cases();
     engine_ = open(predictor_.scene(), *predictor_.core(), options.settings);
     check_models();
+    find_forms();
     if (options.scatter > 0) scatter_.emplace(predictor_.scene(), options.settings, open);
     prepare_trials_folder(options.folder);
   }
@@ -178,6 +181,12 @@ class Trials {
     }
   }
 
+  void find_forms() {
+    tried_.forms.resize(scene_.vessels.size());
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
+      if (is_asked(v)) tried_.forms[v] = engine_->form_text(v);
+  }
+
   std::optional<std::size_t> first_with_model(std::size_t but) const {
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
       if (v == but) continue;
@@ -225,6 +234,8 @@ class Trials {
         counted(trials, "trial"), engine_->name(), counted(static_cast<std::uint64_t>(thread_count(options_.threads)), "thread"),
         options_.scatter > 0 ? fmt::format("; each grip is then tried at {}", counted(options_.scatter, "deviation")) : "",
         options_.quick ? "; --quick: fewer grips and states" : ""));
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
+      if (!tried_.forms[v].empty()) print(fmt::format("  {}: {}\n", scene_.vessels[v].name, tried_.forms[v]));
   }
 
   // Tries the grips that are not in `found`. Returns how many are finished in the end.

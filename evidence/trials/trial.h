@@ -109,6 +109,12 @@ class TrialEngine {
   // Throws Error (usage), with the vessel's name and the reason, if the vessel or the scene's hand has no model; call it before trying any grip. It
   // does not check single grips.
   virtual void check(std::size_t vessel) const { static_cast<void>(vessel); }
+  // What the model of a vessel's form is, and its error: "42 convex pieces, which leave the mesh by at most 0.50 mm". Empty: the outline's own. Throws
+  // Error as `check`.
+  virtual std::string form_text(std::size_t vessel) const {
+    static_cast<void>(vessel);
+    return "";
+  }
   // One outcome for each case, in order. Cases of one fill of fill_tilt are one run of the engine through ascending tilts; an outcome does not depend
   // on further tilts after it. `tracks`, if requested, gets one for each case. `grip` is feasible and plausible. Throws Error as `check`.
   virtual std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,

@@ -22,6 +22,7 @@ struct GripFinding {
 
 struct TriedGrips {
   std::vector<std::vector<TrialCase>> cases;  // of each vessel of the scene; empty if it is not tried
+  std::vector<std::string> forms;             // of each vessel: what its model is; empty: its outline's own
   std::vector<TrialGrip> grips;
   std::vector<GripFinding> found;  // of each grip
   const std::vector<TrialCase>& cases_of(std::size_t grip) const { return cases[grips[grip].vessel]; }

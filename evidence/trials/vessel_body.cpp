@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 
 #include "base/text/error.h"
 #include "base/text/readable.h"
@@ -12,15 +14,15 @@
 #include "core/outline_points.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
+#include "evidence/trials/piece_file.h"
 
 namespace wholehand {
 namespace {
 
 using Point2 = std::array<double, 2>;
 
-constexpr int SLICES = 400;        // of a vessel's height, for inertias alone
-constexpr double FLAT = 1e-7;      // m: a shorter edge has no direction
-constexpr double MOST_WORK = 3e9;  // sides times vertices of a mesh that are checked
+constexpr int SLICES = 400;    // of a vessel's height, for inertias alone
+constexpr double FLAT = 1e-7;  // m: a shorter edge has no direction
 
 // Points of an outline, with arcs cut so finely that no cone is further from them than FORM_TOLERANCE.
 std::vector<Point2> form_points(const std::vector<PreparedElement>& elements) {
@@ -120,37 +122,29 @@ std::vector<ConvexPiece> revolved_pieces(const VesselData& vessel) {
   return pieces;
 }
 
-// How far a mesh's vertices are in front of one of its sides, m: 0 for a convex one. Stops at the first that exceeds the limit.
-double hollow_depth(const MeshBody& body) {
-  double deepest = 0;
-  for (const auto& triangle : body.triangles) {
-    const auto a = to_vec3(body.vertices[triangle[0]]);
-    const glm::dvec3 normal = glm::cross(to_vec3(body.vertices[triangle[1]]) - a, to_vec3(body.vertices[triangle[2]]) - a);
-    const double size = glm::length(normal);
-    if (!(size > 0)) continue;
-    for (const Triple& vertex : body.vertices) deepest = std::max(deepest, glm::dot(to_vec3(vertex) - a, normal) / size);
-    if (deepest > CONVEX_TOLERANCE) return deepest;
-  }
-  return deepest;
-}
-
-std::vector<ConvexPiece> mesh_pieces(const VesselData& vessel) {
+VesselForm mesh_form(const VesselData& vessel, const std::string& folder, std::size_t most_pieces) {
   if (!vessel.mesh->body) throw failure_error(fmt::format("vessel {}: its mesh has not been read", vessel.name));
   const MeshBody& body = *vessel.mesh->body;
-  if (static_cast<double>(body.triangles.size()) * static_cast<double>(body.vertices.size()) > MOST_WORK) {
-    throw usage_error(
-        fmt::format("vessel {}: its mesh has {}, too many to see whether it is convex; trials take convex "
-                    "meshes and outlines",
-                    vessel.name, counted(body.triangles.size(), "triangle")));
+  TriangleMesh triangles;
+  triangles.vertices = body.vertices;
+  triangles.triangles = body.triangles;
+  const CheckedMesh checked = check_mesh(triangles, vessel.name);
+  const MeshDistance distance(checked);
+  const std::optional<std::string> file = piece_file_of(*vessel.mesh, folder);
+  const ConvexCover cover =
+      file ? read_pieces(vessel, *file, folder, checked, distance) : cover_by_pieces(checked, distance, most_pieces);
+  if (cover.error > MOST_PIECE_ERROR) {
+    const std::string other = std::filesystem::path(vessel.mesh->file).filename().replace_extension(".pieces.obj").string();
+    throw usage_error(fmt::format(
+        "vessel {}: its mesh is not convex, and {} convex pieces of it, the most there may be, still reach {:.2f} mm out "
+        "of it; allowed: {:.2g} mm; put convex pieces of it, as CoACD writes them, beside it as {}",
+        vessel.name, most_pieces, 1e3 * cover.error, 1e3 * MOST_PIECE_ERROR, other));
   }
-  const double depth = hollow_depth(body);
-  if (depth > CONVEX_TOLERANCE) {
-    throw usage_error(
-        fmt::format("vessel {}: its mesh is not convex ({:.2f} mm and more in front of one of its sides), and the engine "
-                    "would take its convex hull; trials take convex meshes and outlines",
-                    vessel.name, 1e3 * depth));
-  }
-  return {{PieceShape::hull, body.vertices}};
+  VesselForm form;
+  form.error = cover.error;
+  form.file = file.value_or("");
+  for (const ConvexHull& hull : cover.pieces) form.pieces.push_back({PieceShape::hull, hull.vertices});
+  return form;
 }
 
 // Radius of a polyline at a height, 0 where it has none. Its heights do not fall.
@@ -263,14 +257,22 @@ Moments mesh_moments(const MeshBody& body) {
 
 }  // namespace
 
-std::vector<ConvexPiece> convex_pieces(const VesselData& vessel) {
+VesselForm vessel_form(const VesselData& vessel, const std::string& folder, std::size_t most_pieces) {
   if (vessel.surface == Surface::shell) {
     throw usage_error(
         fmt::format("vessel {}: its surface is a shell, into which fingers reach; trials have no model of a wall that is "
                     "touched from both sides: use surface = \"solid\"",
                     vessel.name));
   }
-  return vessel.mesh ? mesh_pieces(vessel) : revolved_pieces(vessel);
+  if (vessel.mesh) return mesh_form(vessel, folder, most_pieces);
+  return {revolved_pieces(vessel), 0, ""};
+}
+
+std::vector<ConvexPiece> convex_pieces(const VesselData& vessel) { return vessel_form(vessel, "").pieces; }
+
+std::string form_text(const VesselForm& form) {
+  return fmt::format("{}, which leave the mesh by at most {:.2f} mm{}", counted(form.pieces.size(), "convex piece"),
+                     1e3 * form.error, form.file.empty() ? "" : ", from " + form.file);
 }
 
 RigidLoad joined(const RigidLoad& a, const RigidLoad& b) {

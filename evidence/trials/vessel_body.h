@@ -10,6 +10,7 @@
 #include "core/evaluator.h"
 #include "core/prepared.h"
 #include "core/scene.h"
+#include "evidence/trials/convex_cells.h"
 
 namespace wholehand {
 
@@ -17,7 +18,6 @@ constexpr double FORM_TOLERANCE = 0.05e-3;  // m, between an arc and the cones t
 constexpr int FORM_SIDES = 256;             // of a piece of FEW_RINGS at most: its normals are off by 0.7 degrees
 constexpr int ROUNDED_SIDES = 64;           // of one with more rings: by 2.8 degrees, like those of its arcs
 constexpr std::size_t FEW_RINGS = 8;
-constexpr double CONVEX_TOLERANCE = 0.2e-3;  // m, the allowed difference between a mesh and its convex hull
 
 enum class PieceShape { hull, cylinder, ball };
 
@@ -29,11 +29,24 @@ struct ConvexPiece {
   double radius = 0, low = 0, high = 0;  // of a cylinder or a ball, and the heights of its ends
 };
 
-// The outer form of a vessel, closed across its mouth. A body of revolution is cut where its outline is not convex. The part between two cuts is an
-// upright cylinder, a ball whose rest lies within the pieces above it, or the hull of a stack of frusta. A mesh is one piece if it equals its convex
-// hull to CONVEX_TOLERANCE. Throws Error (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down
-// again; a mesh with hollows.
+// The form of a vessel as the engine takes it.
+struct VesselForm {
+  std::vector<ConvexPiece> pieces;
+  double error =
+      0;  // m, of a mesh: no piece reaches farther out of it, and of a file of pieces, the mesh no farther out of the pieces
+  std::string file;  // the file of pieces; empty: the program's own
+};
+
+// The outer form of an outline, closed across its mouth, and a mesh with its own walls. A body of revolution is cut where its outline is not convex.
+// The part between two cuts is an upright cylinder, a ball whose rest lies within the pieces above it, or the hull of a stack of frusta. A mesh is one
+// piece if it equals its convex hull to CONVEX_TOLERANCE, else it is covered by pieces, or those of a file beside it (piece_file.h). `folder`: where
+// the mesh's path starts. Throws Error (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down
+// again; a mesh whose pieces leave it by more than MOST_PIECE_ERROR.
+VesselForm vessel_form(const VesselData& vessel, const std::string& folder, std::size_t most_pieces = MOST_PIECES);
+// The pieces alone, of a vessel without a file of pieces.
 std::vector<ConvexPiece> convex_pieces(const VesselData& vessel);
+// "42 convex pieces, which leave the mesh by at most 0.50 mm".
+std::string form_text(const VesselForm& form);
 
 // Mass, center, and inertia about that center with axes along the frame's. Vessel frame, kg, m, kg m2.
 struct RigidLoad {

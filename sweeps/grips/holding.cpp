@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/counted_tilts.h"
 #include "core/force.h"
@@ -14,6 +15,7 @@ namespace wholehand::sweeps {
 namespace {
 
 using core_f64::ContactPoint;
+using core_f64::DIGITS;
 using core_f64::Effort;
 using core_f64::EffortSolver;
 using core_f64::Load;
@@ -43,7 +45,7 @@ Wrench Holding::load(const StateResult& state, double tilt) const {
 }
 
 StateHold Holding::state(const GripState& state) const {
-  if (!state.counts) return {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, hand_, std::nullopt, {}};
+  if (!state.counts) return {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, hand_, std::nullopt, {}, std::nullopt};
   const Wrench weight = load(state.state, state.tilt);
   EffortSolver solver(contacts_, hand_, center_);
   const Effort found = solver.solve(weight);
@@ -66,6 +68,44 @@ StateHold Holding::state(const GripState& state) const {
                              to_triple(forces[i].force), forces[i].torsion, between_[i]});
   }
   return hold;
+}
+
+std::optional<FingerShares> Holding::shares(const GripState& state, const StateHold& hold) const {
+  if (!std::isfinite(hold.effort) || hold.effort == 0) return std::nullopt;
+  std::array<double, DIGITS> pressed{};
+  std::array<bool, DIGITS> has_contact{};
+  for (const HeldContact& contact : hold.contacts) {
+    const auto digit = static_cast<std::size_t>(contact.digit);
+    pressed[digit] += dot(contact.force, contact.normal);
+    has_contact[digit] = true;
+  }
+  const double sum = std::accumulate(pressed.begin() + 1, pressed.begin() + FINGER_COUNT, 0.0);
+  const double enough = SHARE_ROOM * hold.effort;
+  const Wrench weight = load(state.state, state.tilt);
+  EffortSolver solver(contacts_, hand_, center_);
+  const auto is_allowed = [&](int digit, double share, bool is_least) {
+    solver.set_share({digit, share, is_least});
+    return solver.solve(weight, core_f64::EFFORT_TOLERANCE, enough, enough).effort <= enough;
+  };
+  // From a share that is allowed to one that may not be: the set of forces is convex, and so are the allowed shares.
+  const auto end_of_range = [&](int digit, double from, double to, bool is_least) {
+    if (is_allowed(digit, to, is_least)) return to;
+    while (std::abs(to - from) > SHARE_STEP) {
+      const double middle = (from + to) / 2;
+      (is_allowed(digit, middle, is_least) ? from : to) = middle;
+    }
+    return from;
+  };
+  FingerShares shares;
+  for (std::size_t k = 0; k < shares.share.size(); ++k) {
+    const auto digit = static_cast<int>(k) + 1;
+    const double share = sum > 0 ? pressed[k + 1] / sum : NOT_A_NUMBER;
+    shares.share[k] = shares.least[k] = shares.most[k] = share;
+    if (!(sum > 0) || !has_contact[k + 1]) continue;
+    shares.least[k] = end_of_range(digit, share, 0, false);
+    shares.most[k] = end_of_range(digit, share, 1, true);
+  }
+  return shares;
 }
 
 // Vessel and liquid, at one fill and tilt.

@@ -21,6 +21,15 @@ struct HeldContact {
   int between = 0;           // number of a sphere of the bone that ends at the joint; 0: the joint
 };
 
+constexpr double SHARE_ROOM = 1.2;    // the efforts over which shares range, in least efforts
+constexpr double SHARE_STEP = 0.005;  // of a range's ends
+
+// The shares of index, middle, ring and little finger in the sum of these fingers' normal forces: in the forces of the least effort, and the range
+// over all forces that balance the load with up to SHARE_ROOM of it. NaN where none of these fingers presses at the least effort.
+struct FingerShares {
+  std::array<double, FINGER_COUNT - 1> share{}, least{}, most{};
+};
+
 // One state. The least effort lies in [low, effort]; both are infinite if no force of the hand holds the vessel. `forces` of its contacts attain
 // `effort`. All numbers are NaN if `until_poured` leaves the state out. If the effort is infinite the forces are zero, and `escape` is the vessel's
 // escaping motion: velocity of the center of mass (m/s) and angular velocity (rad/s), scaled together.
@@ -30,6 +39,7 @@ struct StateHold {
   core_f64::HandStrength strength;  // at the opening of the grip
   std::optional<std::array<double, 6>> escape;
   std::vector<HeldContact> contacts;
+  std::optional<FingerShares> shares;  // nothing until add_quality, or without an effort
 };
 
 class Holding {
@@ -40,6 +50,8 @@ class Holding {
   // At the opening of the grip.
   const core_f64::HandStrength& strength() const { return hand_; }
   StateHold state(const GripState& state) const;
+  // Nothing for a state without an effort. `hold` is that of `state`.
+  std::optional<FingerShares> shares(const GripState& state, const StateHold& hold) const;
   // Nothing if the scene has no tilts.
   std::optional<GripHold> over_states() const;
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "sweeps/grips/hull.h"
 
-#include <libqhull_r/libqhull_r.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <utility>
+
+#include "sweeps/grips/qhull_run.h"
 
 namespace wholehand::sweeps {
 namespace {
@@ -31,23 +31,6 @@ double simplex_volume(std::array<Point6, 6> edges) {
   }
   return volume;
 }
-
-// Qhull's memory, which it frees in two steps.
-class QhullRun {
- public:
-  QhullRun() { qh_zero(&qhull_, nullptr); }
-  ~QhullRun() {
-    qh_freeqhull(&qhull_, !qh_ALL);
-    int long_blocks = 0, long_bytes = 0;
-    qh_memfreeshort(&qhull_, &long_blocks, &long_bytes);
-  }
-  QhullRun(const QhullRun&) = delete;
-  QhullRun& operator=(const QhullRun&) = delete;
-  qhT* get() { return &qhull_; }
-
- private:
-  qhT qhull_{};
-};
 
 HullFacet read_facet(const facetT& facet, const Point6& apex) {
   HullFacet read;

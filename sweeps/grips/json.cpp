@@ -15,6 +15,12 @@ using Json = nlohmann::ordered_json;
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json finger_values(const std::array<double, FINGER_COUNT - 1>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(finite_or_null(value));
+  return list;
+}
+
 Json triples(const std::array<Triple, JOINT_COUNT>& points) {
   Json list = Json::array();
   for (const Triple& point : points) list.push_back(point);
@@ -89,6 +95,13 @@ void add_state_hold(Json& json, const StateHold& hold) {
   }
 }
 
+// Null without an effort.
+void add_finger_shares(Json& json, const std::optional<FingerShares>& shares) {
+  json["finger_share"] = shares ? finger_values(shares->share) : Json(nullptr);
+  json["finger_share_low"] = shares ? finger_values(shares->least) : Json(nullptr);
+  json["finger_share_high"] = shares ? finger_values(shares->most) : Json(nullptr);
+}
+
 void add_grip_hold(Json& json, const GripHold& hold) {
   json["worst_effort"] = finite_or_null(hold.worst);
   json["worst_effort_fill"] = hold.worst_fill;
@@ -160,7 +173,9 @@ std::string grip_json(const GripReport& report) {
     json["states"] = Json::array();
     for (std::size_t k = 0; k < report.answer.states.size(); ++k) {
       json["states"].push_back(state_json(report, report.answer.states[k]));
-      if (k < report.holds.size()) add_state_hold(json["states"].back(), report.holds[k]);
+      if (k >= report.holds.size()) continue;
+      add_state_hold(json["states"].back(), report.holds[k]);
+      if (report.quality) add_finger_shares(json["states"].back(), report.holds[k].shares);
     }
     if (report.hold) add_grip_hold(json, *report.hold);
     if (report.quality) add_grip_quality(json, *report.quality);

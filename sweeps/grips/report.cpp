@@ -50,7 +50,12 @@ void add_holding(GripReport& report, const Scene& scene, std::size_t vessel, con
 
 void add_quality(GripReport& report, const Scene& scene, std::size_t vessel) {
   if (report.answer.result.reason != Reason::none) return;
-  report.quality = grip_quality(scene, *make_core_evaluator(scene), vessel, report.answer.result);
+  const auto evaluator = make_core_evaluator(scene);
+  report.quality = grip_quality(scene, *evaluator, vessel, report.answer.result);
+  if (report.holds.empty()) return;
+  const Holding holding(scene, *evaluator, vessel, report.answer.result, report.pour);
+  for (std::size_t k = 0; k < report.holds.size(); ++k)
+    report.holds[k].shares = holding.shares(report.answer.states[k], report.holds[k]);
 }
 
 // y x d for the direction d of the right hand's line; a left hand is that of the scene mirrored in x, which turns the sign.

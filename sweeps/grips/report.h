@@ -40,7 +40,8 @@ void add_holding(GripReport& report, const Scene& scene, std::size_t vessel);
 // The same with an existing evaluator for `scene`, for many grips.
 void add_holding(GripReport& report, const Scene& scene, std::size_t vessel, const Evaluator& evaluator);
 
-// Adds measures of the grasp, also by the core in double; takes seconds. Does nothing for an infeasible grip.
+// Adds measures of the grasp, and to each of `holds` the fingers' shares, also by the core in double; takes seconds. Does nothing for an infeasible
+// grip.
 void add_quality(GripReport& report, const Scene& scene, std::size_t vessel);
 
 // One JSON object in one line, SI units, points in the vessel frame; docs/grip.md names the fields. Fields beyond the reason of an infeasible grip

@@ -15,6 +15,8 @@
 namespace wholehand::sweeps {
 namespace {
 
+using FingerValues = std::array<double, FINGER_COUNT - 1>;  // index to little finger
+
 // `digits` behind the point, or what is known where lengths are known to `report.length_error`: what lengths enter has no more.
 std::string known(const GripReport& report, double value, int digits) {
   constexpr int OF_LENGTHS = 3;  // of exact ones, mm
@@ -211,6 +213,41 @@ void write_quality(std::string& out, const GripReport& report) {
   append_formatted(out, "  wrench volume  {:.4g} to {:.4g}\n", volume[0], volume[1]);
 }
 
+// Over all listed states that hold, beside what people do.
+void write_shares(std::string& out, const GripReport& report) {
+  // Cepria-Bernal et al. 2017: ten adults transport and pour four bottles
+  constexpr FingerValues PUBLISHED{30, 29, 22, 19};
+  FingerShares sum{};
+  FingerValues allowed{};
+  int states = 0;
+  for (const StateHold& hold : report.holds) {
+    if (!hold.shares || std::isnan(hold.shares->share[0])) continue;
+    ++states;
+    for (std::size_t k = 0; k < allowed.size(); ++k) {
+      sum.share[k] += hold.shares->share[k];
+      sum.least[k] += hold.shares->least[k];
+      sum.most[k] += hold.shares->most[k];
+      allowed[k] += hold.shares->least[k] <= PUBLISHED[k] / 100 && PUBLISHED[k] / 100 <= hold.shares->most[k] ? 1 : 0;
+    }
+  }
+  if (states == 0) return;
+  const auto row = [&](const char* name, const auto& text) {
+    append_formatted(out, "  {:<50}", name);
+    for (std::size_t k = 0; k < allowed.size(); ++k) append_formatted(out, "{:>11}", text(k));
+    out += "\n";
+  };
+  const auto mean = [&](double total) { return fixed_text(100 * total / states, 0); };
+  out += "\n";
+  row("fingers' shares of their normal forces, %", [](std::size_t k) { return FINGER_NAMES[k + 1]; });
+  row(fmt::format("  means over {}: at the least effort", counted(states, "state")).c_str(),
+      [&](std::size_t k) { return mean(sum.share[k]); });
+  row(fmt::format("  up to {:g} times the least effort", SHARE_ROOM).c_str(),
+      [&](std::size_t k) { return mean(sum.least[k]) + " to " + mean(sum.most[k]); });
+  row("  people with bottles (published)", [&](std::size_t k) { return fixed_text(PUBLISHED[k], 0); });
+  row(fmt::format("  states that allow the published share, of {}", states).c_str(),
+      [&](std::size_t k) { return fixed_text(allowed[k], 0); });
+}
+
 void write_score(std::string& out, const GripReport& report) {
   const GripScore& score = report.answer.score;
   append_formatted(out, "\n  score          {}\n", known(report, score.score, 6));
@@ -311,6 +348,7 @@ std::string grip_table(const GripReport& report) {
   write_contacts(text, report);
   write_hold(text, report);
   write_quality(text, report);
+  write_shares(text, report);
   write_score(text, report);
   return text;
 }

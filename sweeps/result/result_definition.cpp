@@ -134,11 +134,12 @@ void ResultDefinition::fill_value(int variable, nc_type type) {
   numbers(variable, "_FillValue", type, 1, value);
 }
 
-void ResultDefinition::doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
-                               std::vector<double> values) {
+int ResultDefinition::doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
+                              std::vector<double> values) {
   const int id = variable(name, NC_DOUBLE, dims, units, long_name);
   fill_value(id, NC_DOUBLE);
   values_.push_back([this, id, values = std::move(values)] { check(nc_put_var_double(file_, id, values.data())); });
+  return id;
 }
 
 void ResultDefinition::integers(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,

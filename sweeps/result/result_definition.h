@@ -46,9 +46,9 @@ class ResultDefinition {
   // A variable with its units and name, whose values come later; not filled.
   int variable(const std::string& name, nc_type type, const Names& dims, const std::string& units, const std::string& long_name);
 
-  // Variables with their values, which `finish` writes. Labels belong to the dimension of their name.
-  void doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
-               std::vector<double> values);
+  // Variables with their values, which `finish` writes. `doubles` returns the variable. Labels belong to the dimension of their name.
+  int doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
+              std::vector<double> values);
   void integers(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
                 std::vector<int> values, const IntegerCodes& codes = {});
   void strings(const std::string& name, const Names& dims, const std::string& long_name, const Names& values);

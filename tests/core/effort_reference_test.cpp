@@ -10,6 +10,7 @@
 #include <coin/ClpSimplex.hpp>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ namespace wholehand {
 namespace {
 
 using core_f64::DIGITS;
+using core_f64::EffortSolver;
 using core_f64::Vec3;
 
 // ---- what stands for the cone's section, a unit ball of (tangential force / mu N, moment / mu gamma N) ----
@@ -166,8 +168,16 @@ double slack_of(const ClpSimplex& model) {
   return CLP_TOLERANCE * (prices + (1 + DIGITS) * model.objectiveValue());
 }
 
+// The slope of a digit in the row of a bound: sum of slope x normal force >= 0.
+double slope_of(const core_f64::ShareBound& bound, int digit) {
+  if (digit < 1 || digit >= FINGER_COUNT) return 0;
+  const double slope = (digit == bound.digit ? 1 : 0) - bound.share;
+  return bound.is_least ? slope : -slope;
+}
+
 // `model` begins with the basis of the program before.
-Optimum answer_of(ClpSimplex& model, const ContactSet& set, const Section& section, double friction) {
+Optimum answer_of(ClpSimplex& model, const ContactSet& set, const Section& section, double friction,
+                  const std::optional<core_f64::ShareBound>& bound = {}) {
   const Columns columns = columns_of(set, section, friction);
   const double size = wrench_size(set.load, Vec3(0), UNIT_LENGTH);
   std::array<double, 6 + DIGITS> least{}, most{};
@@ -181,6 +191,16 @@ Optimum answer_of(ClpSimplex& model, const ContactSet& set, const Section& secti
   costs[0] = 1;
   model.loadProblem(columns.count(), 6 + DIGITS, columns.starts.data(), columns.rows.data(), columns.values.data(), nullptr,
                     nullptr, costs.data(), least.data(), most.data());
+  if (bound) {
+    std::vector<int> places;
+    std::vector<double> slopes;
+    for (const core_f64::ContactPoint& contact : set.contacts)
+      for (std::size_t corner = 0; corner < section.corners.size(); ++corner) {
+        places.push_back(static_cast<int>(places.size()) + 1);
+        slopes.push_back(slope_of(*bound, contact.digit));
+      }
+    model.addRow(static_cast<int>(places.size()), places.data(), slopes.data(), 0, COIN_DBL_MAX);
+  }
   model.primal();
   Optimum answer;
   answer.is_certain = model.isProvenOptimal() || model.isProvenPrimalInfeasible();
@@ -248,6 +268,21 @@ TightBracket tightened(ClpSimplex& model, const ContactSet& set, const Optimum& 
   }
 }
 
+ClpSimplex plain_model() {
+  ClpSimplex model;
+  model.setLogLevel(0);
+  model.setPrimalTolerance(CLP_TOLERANCE);
+  model.setDualTolerance(CLP_TOLERANCE);
+  model.scaling(0);  // with either of these it stops short of the optimum
+  model.setPerturbation(100);
+  return model;
+}
+
+const Section& section_of(const ContactSet& set) {
+  static const Section flat = polygon(), round = ball();
+  return set.hand.torsion > 0 ? round : flat;
+}
+
 struct Reference {
   Optimum inside, around;
   double gap = 0;      // of the section: 1 - inside
@@ -255,14 +290,8 @@ struct Reference {
 };
 
 Reference reference_of(const ContactSet& set) {
-  static const Section flat = polygon(), round = ball();
-  const Section& section = set.hand.torsion > 0 ? round : flat;
-  ClpSimplex model;
-  model.setLogLevel(0);
-  model.setPrimalTolerance(CLP_TOLERANCE);
-  model.setDualTolerance(CLP_TOLERANCE);
-  model.scaling(0);  // with either of these it stops short of the optimum
-  model.setPerturbation(100);
+  const Section& section = section_of(set);
+  ClpSimplex model = plain_model();
   Reference reference;
   reference.around = answer_of(model, set, section, set.hand.friction / section.inside);
   reference.inside = answer_of(model, set, section, set.hand.friction);
@@ -359,6 +388,66 @@ TEST(EffortReference, BracketsOfFewContactsOverlapLinearPrograms) {
   }
   EXPECT_GT(widths.finite, static_cast<int>(sets));
   EXPECT_GT(widths.infinite, static_cast<int>(sets / 5));
+}
+
+// Normal forces of the last solve, N, by digit.
+std::array<double, DIGITS> pressed_by(const ContactSet& set, const EffortSolver& solver) {
+  std::vector<core_f64::ContactForce> forces(set.contacts.size());
+  solver.forces(forces);
+  std::array<double, DIGITS> pressed{};
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    pressed[static_cast<std::size_t>(set.contacts[i].digit)] += glm::dot(forces[i].force, set.contacts[i].normal);
+  return pressed;
+}
+
+// The row of a bound, as a share of all forces: at least 0 within it.
+double within(const core_f64::ShareBound& bound, const std::array<double, DIGITS>& pressed) {
+  double row = 0, all = 0;
+  for (int digit = 0; digit < DIGITS; ++digit) {
+    row += slope_of(bound, digit) * pressed[static_cast<std::size_t>(digit)];
+    all += pressed[static_cast<std::size_t>(digit)];
+  }
+  return row / all;
+}
+
+// The row of a bound makes the program's efforts those of the bound, and the forces keep to it. A bound on the other side of the share of the
+// least effort changes nothing.
+TEST(EffortReference, BracketsWithABoundOfAShareOverlapLinearPrograms) {
+  int dearer = 0, impossible = 0, same = 0;
+  const std::uint64_t sets = asked_reference_sets() / 10;
+  for (std::uint64_t seed = 0; seed < sets; ++seed) {
+    const ContactSet set = vessel_contact_set(seed);
+    EffortSolver free(set.contacts, set.hand, Vec3(0.01, 0.05, 0));
+    const core_f64::Effort least = free.solve(set.load, 1e-9);
+    if (!std::isfinite(least.effort)) continue;
+    const int digit = 1 + static_cast<int>(seed % 4);
+    const std::array<double, DIGITS> freely = pressed_by(set, free);
+    for (const core_f64::ShareBound& bound : {core_f64::ShareBound{digit, 0.15, false}, {digit, 0.15, true}, {digit, 0.6, true}}) {
+      const std::string which = description(seed, set) + ", share " + std::to_string(bound.share) + (bound.is_least ? "+" : "-");
+      EffortSolver solver(set.contacts, set.hand, Vec3(0.01, 0.05, 0));
+      solver.set_share(bound);
+      const core_f64::Effort found = solver.solve(set.load, 1e-9);
+      const Section& section = section_of(set);
+      ClpSimplex model = plain_model();
+      const Optimum around = answer_of(model, set, section, set.hand.friction / section.inside, bound);
+      const Optimum inside = answer_of(model, set, section, set.hand.friction, bound);
+      ASSERT_TRUE(inside.is_certain && around.is_certain) << which;
+      EXPECT_LE(found.low, inside.effort + inside.slack) << which;
+      EXPECT_GE(found.effort, around.effort - around.slack) << which;
+      EXPECT_GE(found.effort, least.low) << which;
+      impossible += std::isinf(found.effort) ? 1 : 0;
+      if (std::isinf(found.effort)) continue;
+      expect_forces_hold(set, solver, found, Vec3(0.01, 0.05, 0), which);
+      EXPECT_GE(within(bound, pressed_by(set, solver)), -FORCES_SUMMED) << which;
+      const bool is_kept = within(bound, freely) >= 0;
+      dearer += found.low > least.effort ? 1 : 0;
+      same += is_kept ? 1 : 0;
+      if (is_kept) {
+        EXPECT_LE(found.low, least.effort * (1 + FORCES_SUMMED)) << which;
+      }
+    }
+  }
+  for (const int count : {dearer, impossible, same}) EXPECT_GT(count, static_cast<int>(sets / 10));
 }
 
 }  // namespace

@@ -200,6 +200,42 @@ TEST(Effort, StrengthOfDigitsThatDoNotPressChangesNothing) {
   }
 }
 
+// The thumb presses against the middle between index and middle finger on a plate, which hangs by friction; no contact turns. Statics: half of the
+// weight hangs on each side, each finger carries a quarter W / 4, and the thumb's effort is N = W / 2 mu at least. Shares s and 1 - s of N turn the
+// plate by d (2 s - 1) N about the vertical, against a level force F on each side over the plate's thickness h. A finger's friction leaves
+// sqrt((mu s N)^2 - (W / 4)^2) for F, and the thumb's is as much as both fingers' with equal shares.
+TEST(Effort, SharesOfTwoFingersOppositeTheThumb) {
+  const double apart = 0.01, thickness = 0.003, room = 1.2, press = room * WEIGHT / (2 * MU);
+  const std::vector<ContactPoint> contacts{{{0, 0, -thickness / 2}, {0, 0, 1}, 0},
+                                           {{-apart, 0, thickness / 2}, {0, 0, -1}, 1},
+                                           {{apart, 0, thickness / 2}, {0, 0, -1}, 2}};
+  const auto level = [&](double share) {
+    return std::sqrt(std::max(0.0, std::pow(MU * share * press, 2) - std::pow(WEIGHT / 4, 2)));
+  };
+  double answer = 0.5,
+         beyond = 1 - WEIGHT / 4 / (MU * press);  // there the weaker finger carries its quarter by all of its friction
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (answer + beyond) / 2;
+    (apart * (2 * middle - 1) * press <= thickness * (level(middle) + level(1 - middle)) ? answer : beyond) = middle;
+  }
+  ASSERT_GT(answer, 0.52);
+  ASSERT_LT(answer, 0.58);
+  const HandStrength hand{MU, 0, {1, 5, 5, 5, 5, 5}};
+  const Wrench load = wrench_at({}, {0, -WEIGHT, 0});
+  for (const int digit : {1, 2}) {
+    for (const double off : {-1e-3, 1e-3}) {  // far beyond the bracket of 1e-6, which moves the answer by some 1e-5
+      const double effort = press, most = answer + off;
+      for (const core_f64::ShareBound& bound : {core_f64::ShareBound{digit, most, true}, {digit, 1 - most, false}}) {
+        EffortSolver solver(contacts, hand, {});
+        solver.set_share(bound);
+        const Effort found = solver.solve(load, 1e-6);
+        EXPECT_EQ(found.effort <= effort, off < 0) << digit << " " << bound.share;
+        EXPECT_EQ(found.low <= effort, off < 0) << digit << " " << bound.share;
+      }
+    }
+  }
+}
+
 TEST(Effort, NothingToHoldIsNoEffort) {
   EffortSolver solver({}, unit_strength(), {});
   const Effort found = solver.solve({});

@@ -127,7 +127,8 @@ class Bash(unittest.TestCase):
     def test_values_are_those_that_the_program_allows(self):
         needed = {"sweep": ["small"], "grip": ["small", "--vessel", "tumbler", "--height-mm", "50"],
                   "trials": ["small", "-o", "nowhere"], "rank": ["none.nc"],
-                  "new": ["cup", "--diameter-mm", "70", "--height-mm", "120"], "study": ["-o", "nowhere"], "live": []}
+                  "new": ["cup", "--diameter-mm", "70", "--height-mm", "120"], "mesh": ["none.stl"], "study": ["-o", "nowhere"],
+                  "live": []}
         table = bash_run("declare -f _wholehand_value")[0]
         rows = re.findall(r"'(\S+) (--\S+)'[^)]*\)\s*echo '\w+ ([^-'].*)'", table)
         checked = 0
@@ -145,7 +146,7 @@ class Bash(unittest.TestCase):
             names = whole | {name.split(":")[0] + ":" for name in names if ":" in name and name.split(":")[0] not in whole}
             self.assertEqual(set(words), names, f"{command} {option}: {message}")
             checked += 1
-        self.assertEqual(checked, 9)
+        self.assertEqual(checked, 10)
 
     def test_scenes_and_files(self):
         own = ["a b.toml", "mine.toml"]

@@ -63,19 +63,6 @@ class Subdivision {
   double radius_;
 };
 
-// A grid of points, rows x columns, closed in the columns: two triangles a field, those without area left out.
-void add_fields(TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& rows) {
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
-  };
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-    for (std::size_t j = 0; j < rows[i].size(); ++j) {
-      const std::size_t next = (j + 1) % rows[i].size();
-      add(rows[i][j], rows[i + 1][j], rows[i + 1][next]);
-      add(rows[i][j], rows[i + 1][next], rows[i][next]);
-    }
-}
-
 std::vector<std::array<double, 2>> outline_points(const VesselData& vessel, double chord) {
   std::vector<std::array<double, 2>> points{{0, 0}};
   for (const PreparedElement& e : prepare_vessel(vessel, false).hull) {
@@ -103,6 +90,18 @@ void append(std::string& bytes, T value) {
 
 }  // namespace
 
+void add_fields(TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& rows) {
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
+  };
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+    for (std::size_t j = 0; j < rows[i].size(); ++j) {
+      const std::size_t next = (j + 1) % rows[i].size();
+      add(rows[i][j], rows[i + 1][j], rows[i + 1][next]);
+      add(rows[i][j], rows[i + 1][next], rows[i][next]);
+    }
+}
+
 TriangleMesh icosphere(double radius, int level) {
   const double g = std::numbers::phi;
   TriangleMesh mesh;
@@ -123,6 +122,13 @@ TriangleMesh open_hemisphere(double radius, int level) {
   Subdivision sphere(octant, radius);
   for (int i = 0; i < level; ++i) sphere.refine();
   return sphere.take();
+}
+
+TriangleMesh wavy_bowl(double radius, int level, double wave) {
+  TriangleMesh bowl = open_hemisphere(radius, level);
+  for (Triple& p : bowl.vertices)
+    if (p[1] == 0) p[1] = wave * std::cos(2 * std::atan2(p[2], p[0]));
+  return bowl;
 }
 
 TriangleMesh torus(double large_radius, double small_radius, int around, int across) {
@@ -316,6 +322,47 @@ std::string ply_text(const TriangleMesh& mesh, PlyWriting writing) {
                                                  : "binary_little_endian",
              mesh.vertices.size(), mesh.triangles.size()) +
          body;
+}
+
+std::string off_text(const TriangleMesh& mesh) {
+  std::string text = fmt::format("OFF\n# a mesh\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
+  for (const Triple& p : mesh.vertices) text += fmt::format("{:.9g} {:.9g} {:.9g}\n", p[0], p[1], p[2]);
+  for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("3 {} {} {} 255 0 0\n", a, b, c);
+  return text;
+}
+
+std::string collada_text(const std::string& asset, const std::string& geometries, const std::string& nodes) {
+  return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+         "version=\"1.4.1\">\n<asset>" +
+         asset + "</asset>\n<library_geometries>" + geometries +
+         "</library_geometries>\n<library_visual_scenes><visual_scene id=\"shown\">" + nodes +
+         "</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url=\"#shown\"/></scene>\n</COLLADA>\n";
+}
+
+std::string collada_geometry(const std::vector<Triple>& points, const std::string& polygons) {
+  std::string numbers;
+  for (const Triple& p : points) numbers += fmt::format("{:.9g} {:.9g} {:.9g}\n", p[0], p[1], p[2]);
+  return fmt::format(
+      "<geometry id=\"body\"><mesh>\n<source id=\"body-source\"><float_array id=\"body-array\" count=\"{}\">{}</float_array>\n"
+      "<technique_common><accessor source=\"#body-array\" count=\"{}\" stride=\"3\"><param name=\"X\" type=\"float\"/><param "
+      "name=\"Y\" "
+      "type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>\n<vertices "
+      "id=\"body-points\"><input "
+      "semantic=\"POSITION\" source=\"#body-source\"/></vertices>\n{}</mesh></geometry>",
+      3 * points.size(), numbers, points.size(), polygons);
+}
+
+std::string collada_text(const TriangleMesh& mesh, double meters, const std::string& up) {
+  std::string corners;  // each with a place in a texture before it
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) corners += fmt::format("0 {} ", corner);
+  return collada_text(
+      fmt::format("<unit name=\"unit\" meter=\"{}\"/><up_axis>{}</up_axis>", meters, up),
+      collada_geometry(mesh.vertices,
+                       fmt::format("<triangles count=\"{}\"><input semantic=\"TEXCOORD\" source=\"#none\" offset=\"0\"/><input "
+                                   "semantic=\"VERTEX\" source=\"#body-points\" offset=\"1\"/><p>{}</p></triangles>",
+                                   mesh.triangles.size(), corners)),
+      "<node><instance_geometry url=\"#body\"/></node>");
 }
 
 }  // namespace wholehand

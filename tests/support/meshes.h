@@ -20,10 +20,14 @@ TriangleMesh box_mesh(const Triple& low, const Triple& high);
 TriangleMesh turned_mesh(const VesselData& vessel, int around, double chord);
 // The upper half of a sphere without its base: open.
 TriangleMesh open_hemisphere(double radius, int level);
+// The same with a rim that goes up and down by `wave` m twice around: no plane holds it.
+TriangleMesh wavy_bowl(double radius, int level, double wave);
 
 // Turned by Rx Ry Rz (rad), then moved.
 TriangleMesh placed_mesh(TriangleMesh mesh, const Triple& turn, const Triple& move);
 TriangleMesh joined(TriangleMesh a, const TriangleMesh& b);
+// Adds a grid of points, rows x columns, closed in the columns: two triangles a field, those without area left out.
+void add_fields(TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& rows);
 
 // A vessel with that mesh as its body, checked as a file's would be, with a lattice of this spacing (m; 0: none).
 VesselData vessel_of_mesh(const std::string& name, const TriangleMesh& mesh, double spacing);
@@ -41,5 +45,11 @@ std::string ascii_stl_text(const TriangleMesh& mesh);
 std::string obj_text(const TriangleMesh& mesh);
 enum class PlyWriting { ascii, little_endian, big_endian };
 std::string ply_text(const TriangleMesh& mesh, PlyWriting writing);
+std::string off_text(const TriangleMesh& mesh);
+std::string collada_text(const TriangleMesh& mesh, double meters = 1, const std::string& up = "Y_UP");
+// A Collada file of this asset, these geometries and this inside of its visual scene.
+std::string collada_text(const std::string& asset, const std::string& geometries, const std::string& nodes);
+// A geometry named "body"; `polygons`: <triangles> and the like, whose VERTEX is "#body-points".
+std::string collada_geometry(const std::vector<Triple>& points, const std::string& polygons);
 
 }  // namespace wholehand

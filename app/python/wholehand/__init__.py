@@ -27,6 +27,7 @@ from ._core import version as _version
 from ._errors import Error, Note
 from ._evaluate import evaluate, grip_dtype as _grip_dtype, grips_of as grips
 from ._grip import Drawing, Grip, grip
+from ._mesh import Mesh, mesh
 from ._scene import Scene, Variable, new, scene, scenes
 from ._session import Hand, Session, Step, session
 from ._sweep import sweep
@@ -45,6 +46,7 @@ __all__ = [
     "Error",
     "Grip",
     "Hand",
+    "Mesh",
     "Note",
     "Scene",
     "Session",
@@ -55,6 +57,7 @@ __all__ = [
     "evaluate",
     "grip",
     "grips",
+    "mesh",
     "new",
     "scene",
     "scenes",

@@ -181,13 +181,15 @@ def _states(states: list[dict[str, Any]]) -> xr.Dataset:
         raise Error("states: a fill or a tilt was asked for twice")
     data = xr.Dataset(coords={"fill": ("fill", fills, {"units": "1"}), "tilt": ("tilt", tilts, {"units": "rad"})})
     for key, first in states[0].items():
-        is_point = key in ("liquid_com_m", "com_m")
-        if key in ("fill", "tilt_rad", "worst_direction") or (isinstance(first, list) and not is_point):
+        last = "xyz" if key in ("liquid_com_m", "com_m") else "finger" if key.startswith("finger_share") else None
+        if key in ("fill", "tilt_rad", "worst_direction") or (isinstance(first, list) and not last):
             continue
-        name, unit = _named(key)
-        missing = [np.nan] * 3 if is_point else np.nan
+        name, unit = (key, "1") if last == "finger" else _named(key)
+        missing = [np.nan] * (3 if last == "xyz" else 4) if last else np.nan
         values = np.array([missing if one.get(key) is None else one[key] for one in states], dtype=np.float64)
-        dims = ("fill", "tilt", "xyz") if is_point else ("fill", "tilt")
+        dims = ("fill", "tilt", last) if last else ("fill", "tilt")
+        if last == "finger":
+            data = data.assign_coords(finger=("finger", ["index", "middle", "ring", "little"]))
         data[name] = dims, values.reshape(len(fills), len(tilts), *values.shape[1:]), {"units": unit}
     return data
 
@@ -342,7 +344,8 @@ def grip(
     precision : {"float", "double"}, optional
         Default: double on the core, float on a device.
     quality : bool
-        Measure the grasp as Ferrari and Canny do: "epsilon" and "wrench_volume". Takes seconds.
+        Measure the grasp as Ferrari and Canny do, "epsilon" and "wrench_volume", and the shares of the fingers: ``states`` has
+        "finger_share", "finger_share_low" and "finger_share_high" along "finger", index to little. Takes seconds.
 
     Raises
     ------

@@ -97,10 +97,10 @@ class Scene:
         return f"<Scene {self.name}: {', '.join(self.vessels)}>"
 
     def __reduce__(self) -> tuple[Any, tuple[str, str]]:
-        return _scene_of_text, (self.text, self.file)
+        return scene_of_text, (self.text, self.file)
 
 
-def _scene_of_text(text: str, file: str) -> Scene:
+def scene_of_text(text: str, file: str) -> Scene:
     return Scene(_core.parse_scene(text, file))
 
 
@@ -139,7 +139,7 @@ def scene(source: SceneLike = "three_beakers", *, file: str | os.PathLike[str] |
     if isinstance(source, Mapping):
         return _scene_of_dict(toml_text(source), "dict" if file is None else os.fspath(file))
     if isinstance(source, str) and "\n" in source:
-        return _scene_of_text(encodable(source), "text" if file is None else os.fspath(file))
+        return scene_of_text(encodable(source), "text" if file is None else os.fspath(file))
     if not isinstance(source, (str, os.PathLike)):
         raise TypeError(f"scene: {type(source).__name__}; allowed: a name, a path, a TOML text, a dict or a Scene")
     return Scene(_core.open_scene(encodable(os.fspath(source))))
@@ -148,7 +148,7 @@ def scene(source: SceneLike = "three_beakers", *, file: str | os.PathLike[str] |
 def _scene_of_dict(text: str, name: str) -> Scene:
     """Adds the line that a message means as a note: nobody has seen the text that was made of a dict."""
     try:
-        return _scene_of_text(text, name)
+        return scene_of_text(text, name)
     except Error as error:
         place = re.match(re.escape(name) + r":(\d+):\d+: ", str(error))
         lines = text.splitlines()
@@ -175,7 +175,7 @@ def new(
         With its dimensions as ``diameter_mm``, ``height_mm``, ``neck_mm``, ``upright_mm``, ``shoulder_mm``, and ``wall_mm`` and
         ``density_kg_m3`` of its wall (1.5 mm of glass): the keys of ``[[vessel]]`` in docs/scene.md.
     mesh : path, optional
-        Instead of a shape, with ``mass_kg``, ``density_kg_m3`` or ``mesh_scale``. A solid, without liquid.
+        Instead of a shape, with the keys that ``wh.mesh`` finds; ``mass_kg``, ``density_kg_m3`` or ``mesh_scale`` may be given.
     fill_ml : float, optional
         The grips are judged with the vessel empty and with so much. Else at five fills up to the brim.
 
@@ -194,16 +194,24 @@ def new(
     ...     print(error)
     [[vessel]] lacks 'neck_mm'; allowed: a flask with diameter_mm, neck_mm, height_mm
     """
+    fill = None if fill_ml is None else float(fill_ml)
+    if mesh is not None:
+        given = numbers_of(numbers, "new", "shape, mesh, fill_ml")
+        scale = dict(given).get("mesh_scale")
+        survey = _core.survey_mesh(encodable(os.fspath(mesh)), scale, None, (), None)
+        return scene_of_text(survey.scene_text(encodable(name), given, fill), "text")
+    return scene_of_text(_core.new_scene(encodable(name), encodable(shape), numbers_of(numbers, "new", "shape, mesh, fill_ml"), fill), "text")
+
+
+def numbers_of(numbers: Mapping[str, float], caller: str, others: str) -> list[tuple[str, float]]:
+    """Keywords in the order of a scene. Raises TypeError, which names the caller and its other keywords."""
     known = _core.new_scene_keys()
     for key, value in numbers.items():
         if key not in known:
-            raise TypeError(f"new: {key} is no keyword; allowed: shape, mesh, fill_ml, {', '.join(known)}")
+            raise TypeError(f"{caller}: {key} is no keyword; allowed: {others}, {', '.join(known)}")
         if isinstance(value, bool) or not hasattr(value, "__float__"):
-            raise wrong_type("new", key, value, "a number")
-    given = [(key, float(numbers[key])) for key in known if key in numbers]
-    path = "" if mesh is None else encodable(os.fspath(mesh))
-    text = _core.new_scene(encodable(name), encodable(shape), path, given, None if fill_ml is None else float(fill_ml))
-    return _scene_of_text(text, "text")
+            raise wrong_type(caller, key, value, "a number")
+    return [(key, float(numbers[key])) for key in known if key in numbers]
 
 
 def scenes() -> list[str]:

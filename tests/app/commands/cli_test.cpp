@@ -116,7 +116,7 @@ TEST(CommandUsage, RefusesWrongWallsAndFiles) {
       {"session /tmp", "/tmp: is a directory; name a recording"},
       {"session /dev/null", "/dev/null: is a device or pipe; name a recording"},
       {"session /proc/self/status", "/proc/self/status: is not a recording"},
-      {"session a.nc b.nc", "more than one recording; add --study"},
+      {"session a.nc b.nc", "a.nc: cannot be read"},
       {"report", "result is required"},
       {"report ''", "must not be empty"},
       {"report a.nc -o ''", "must not be empty"},
@@ -230,11 +230,11 @@ TEST(CommandUsage, ListsDevicesAndGrippers) {
   const Outcome listed = run(program);
   EXPECT_EQ(listed.code, 0) << listed.output;
   std::size_t last = 0;
-  for (const char* line :
-       {"\n  rounds products before it adds them, as the kernels ask (NoContraction)\n",
-        "core  the reference, double precision, all threads  <- --on core\n",
-        "\nsim  a virtual user, always there  <- --device sim\n",
-        "\nomega  omega.7, right hand  <- --device omega\n  up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4,000 Hz; SDK 3.17.6"}) {
+  for (const char* line : {"\n  rounds products before it adds them, as the kernels ask (NoContraction)\n",
+                           "core  the reference, double precision, all threads  <- --on core\n",
+                           "\nsim  a virtual user, always there  <- --device sim\n",
+                           "\nomega  omega.7, right hand, serial 4001  <- --device omega\n"
+                           "  up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4,000 Hz; SDK 3.17.6"}) {
     const std::size_t at = listed.output.find(line, last);
     ASSERT_NE(at, std::string::npos) << listed.output << "lacks, or has elsewhere: " << line;
     last = at;

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -144,21 +143,6 @@ TEST_F(MeshCommands, ASessionHoldsAMesh) {
   const Outcome live = run("PROGRAM live " + path("cup.toml") + " --device sim --no-clock --seconds 10 2>&1");
   EXPECT_EQ(live.code, 0) << live.output;
   EXPECT_NE(live.output.find("cup is held at"), std::string::npos) << live.output;
-}
-
-// The scene of README, as a reader copies it, with a mug of its size.
-TEST_F(MeshCommands, ReadmesSceneAsksWhatADefaultSweepAsks) {
-  std::istringstream readme(file_text(WHOLEHAND_SOURCE_DIR "/README.md"));
-  std::string scene, line;
-  while (std::getline(readme, line) && line != "    [[vessel]]") continue;
-  for (; readme && (line.empty() || line.starts_with("    ")); std::getline(readme, line))
-    scene += (line.empty() ? "" : line.substr(4)) + "\n";
-  write("mug.toml", scene);
-  write("mug.glb", glb_text(turned_mesh(cylinder("mug", 80, 95, 1.5), 64, 2e-3)));
-  const Outcome swept = run("PROGRAM sweep " + path("mug.toml") + " --on core -o " + path("mug.nc") + " 2>&1");
-  EXPECT_EQ(swept.code, 0) << swept.output;
-  for (const char* part : {"mug: grip 1 holds with ", " of 17,280 grips hold; ", " through the table", "safe deg  effort\n"})
-    EXPECT_TRUE(has(swept.output, part)) << part << " in\n" << swept.output;
 }
 
 TEST_F(MeshCommands, RefusesBadFilesInOneLineAndWritesNothing) {

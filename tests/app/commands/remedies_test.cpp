@@ -203,7 +203,9 @@ TEST(FollowedRemedies, HelpTrialsAndStudies) {
 
 TEST(FollowedRemedies, HelpLive) {
   const std::string board = board_text(), quick = "live @.toml --no-clock --seconds 1 ", clocked = "live @.toml --seconds 0.3 ",
-                    recorded = quick + "--record @.nc >/dev/null && PROGRAM ", replay = "live --no-clock --device replay:@.nc ";
+                    recorded = quick + "--record @.nc >/dev/null && PROGRAM ",
+                    twice = recorded + quick + "--seed 2 --record @.2.nc >/dev/null && PROGRAM ",
+                    replay = "live --no-clock --device replay:@.nc ";
   const std::string second = CUP_SCENE.substr(0, CUP_SCENE.find("[grips]")),
                     renamed = "[[vessel]]\nname = \"mug\"" + second.substr(second.find("\nshape"));
   expect_helps({
@@ -224,7 +226,8 @@ TEST(FollowedRemedies, HelpLive) {
       {second + renamed, quick, "a live session needs place_mm for each",
        second + "place_mm = [-150, 0, 0]\n" + renamed + "place_mm = [150, 0, 0]\n", quick},
       {second + renamed, quick, "whose vessels have places: mixing_board", board, quick},
-      {board, recorded + "session @.nc @.nc", "add --study", board, recorded + "session @.nc --study -o @.study"},
+      {board, twice + "session @.nc @.2.nc --json", "go with one recording", board, recorded + "session @.nc --json"},
+      {board, recorded + "session @.nc @.nc", "each recording counts once", board, twice + "session @.nc @.2.nc"},
       {board, recorded + "session @.nc --seed 3", "goes with --study", board, recorded + "session @.nc --study --seed 3"},
       {board, recorded + "session @.nc --study --json", "goes without --study", board, recorded + "session @.nc --json"},
   });

@@ -35,6 +35,8 @@ std::vector<Given> files_of_all_kinds() {
           {FileKind::stl, ascii_stl_text(mesh)},
           {FileKind::obj, obj_text(mesh)},
           {FileKind::ply, ply_text(mesh, PlyWriting::ascii)},
+          {FileKind::off, off_text(mesh)},
+          {FileKind::collada, collada_text(mesh)},
           {FileKind::result, std::string(NETCDF4_START) + "rest"},
           {FileKind::recording, "CDF\2\0\0\0\1rest"s},
           {FileKind::scene, "[[vessel]]\nname = \"v\"\n"},
@@ -57,7 +59,7 @@ TEST(WrongFiles, EachReaderSaysWhatItWasGiven) {
   };
   const std::vector<Reader> readers{
       {"a scene", {FileKind::scene}, [](const std::string& path) { read_scene_file(path); }},
-      {"a mesh", {FileKind::gltf, FileKind::stl, FileKind::obj, FileKind::ply}, read_as_mesh},
+      {"a mesh", {FileKind::gltf, FileKind::stl, FileKind::obj, FileKind::ply, FileKind::off, FileKind::collada}, read_as_mesh},
       {"a recording", {FileKind::recording}, [](const std::string& path) { device::read_recording(path); }},
       {"a result of a sweep", {FileKind::result}, [](const std::string& path) { sweeps::SweepResult result(path); }}};
   const TemporaryFolder folder;
@@ -74,7 +76,7 @@ TEST(WrongFiles, EachReaderSaysWhatItWasGiven) {
 // Whatever ending the file has.
 TEST(WrongFiles, AMeshThatIsNoneIsNamedWithEveryEnding) {
   const TemporaryFolder folder;
-  for (const char* ending : {"obj", "stl", "ply", "glb", "gltf"}) {
+  for (const char* ending : {"obj", "stl", "ply", "glb", "gltf", "off", "dae"}) {
     MeshData data;
     data.file = folder / ("cup."s + ending);
     for (const Given& given : files_of_all_kinds()) {

@@ -146,6 +146,11 @@ class OneGrip(InFolder):
         grip = wh.grip("scene.toml", "low", **AT, **few, quality=True)
         self.assertTrue((grip["epsilon"] >= 0).all())
         self.same(grip, "scene.toml", "--vessel", "low", *options(AT), "--fill", 0.25, "--tilt-deg", 0, "--quality")
+        shares = grip.states.finger_share
+        self.assertEqual(shares.dims, ("fill", "tilt", "finger"))
+        self.assertEqual(shares.finger.values.tolist(), ["index", "middle", "ring", "little"])
+        self.assertEqual(shares.values.ravel().tolist(), grip["states"][0]["finger_share"])
+        self.assertTrue((grip.states.finger_share_low <= shares).all() and (shares <= grip.states.finger_share_high).all())
 
     def test_drawings_are_the_programs(self):
         grip = wh.grip("scene.toml", "low", **AT)

@@ -13,6 +13,15 @@ from harness import complaint, run
 from installed import MESH, SEVERAL, InFolder, tube_ply
 
 
+def cup_obj() -> str:
+    """A square cup, 7 x 10 x 7 cm, whose cavity is 6 x 9 x 6 cm: rings of corners, the walls between them, the base and the floor."""
+    rings = [(3.5, 0), (3.5, 10), (3, 10), (3, 1)]
+    corners = [(x * r, y, z * r) for r, y in rings for x, z in ((-1, -1), (-1, 1), (1, 1), (1, -1))]
+    walls = [(4 * k + j, 4 * k + (j + 1) % 4, 4 * k + 4 + (j + 1) % 4, 4 * k + 4 + j) for k in range(3) for j in range(4)]
+    faces = [*walls, (3, 2, 1, 0), (12, 13, 14, 15)]
+    return "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {' '.join(str(k + 1) for k in face)}\n" for face in faces)
+
+
 class Scenes(InFolder):
     def test_a_name_a_path_and_a_text_are_the_same_scene(self):
         named = wh.scene("three_beakers")
@@ -147,6 +156,19 @@ class Scenes(InFolder):
     def written(self, text):
         pathlib.Path("text").write_text(text)
         return "text"
+
+    def test_a_mesh_is_surveyed_as_the_program_does(self):
+        pathlib.Path("cup.obj").write_text(cup_obj())
+        cup = wh.mesh("cup.obj")
+        self.assertAlmostEqual(cup["cavity"]["capacity_ml"], 6 * 9 * 6, delta=1)
+        self.assertEqual(cup["keys"]["mesh_scale"], "0.01")
+        self.assertIn("cavity: ", str(cup))
+        self.assertIn("<svg", cup.plot().svg)
+        scene = cup.scene("cup", fill_ml=100, density_kg_m3=1050)
+        self.assertIn("density_kg_m3 = 1050", scene.text)
+        self.assertEqual(wh.new("cup", mesh="cup.obj", fill_ml=100, density_kg_m3=1050).text, scene.text)
+        self.assertIn("part = 2: it has 1 part", str(self.refused(wh.mesh, "cup.obj", part=2)))
+        self.assertIn("allowed: 'y' or 'z'", str(self.refused(wh.mesh, "cup.obj", up="x")))
 
     def test_meshes_are_looked_for_from_the_file_and_their_notes_are_there(self):
         pathlib.Path("deeper").mkdir()

@@ -36,6 +36,23 @@ TEST_F(FileSetTest, StandsOnceAllAreWhole) {
   EXPECT_EQ(files_in(folder), 2) << "the third one is gone, and no other names are left";
 }
 
+TEST_F(FileSetTest, TakesAFilePieceByPiece) {
+  {
+    FileSet set;
+    set.append(folder / "a", "lost", "make room");
+  }
+  FileSet set;
+  set.append(folder / "a", "one", "make room");
+  set.append(folder / "b", "other", "make room");
+  set.append(folder / "a", ", two", "make room");
+  EXPECT_EQ(file_text(folder / "a"), "old");
+  set.commit("make room");
+  EXPECT_EQ(file_text(folder / "a"), "one, two");
+  EXPECT_EQ(file_text(folder / "b"), "other");
+  EXPECT_EQ(refusal_line([&] { set.append(folder / "none/a", "x", "make room"); }, ExitCode::failure),
+            "cannot write " + (folder / "none/a") + ": No such file or directory; make room");
+}
+
 TEST_F(FileSetTest, GivenUpItLeavesWhatWasThere) {
   {
     FileSet set;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/numbers/normal.h"
+
 namespace wholehand {
 namespace {
 
@@ -38,6 +40,26 @@ TEST(FTail, OfAnotherProgram) {
   EXPECT_NEAR(f_tail(0.4, 1, 10) / 0.5412795170748117, 1, 1e-11);
   EXPECT_NEAR(f_tail(1000, 3, 20) / 5.986006215689513e-22, 1, 1e-11);
   EXPECT_EQ(f_tail(0, 3, 20), 1);
+}
+
+TEST(ChiSquareQuantile, OfClosedForms) {
+  for (const double p : {1e-6, 0.025, 0.5, 0.975, 0.999999}) {
+    EXPECT_NEAR(chi_square_quantile(p, 2) / (-2 * std::log1p(-p)), 1, 1e-9) << p;
+    EXPECT_NEAR(std::sqrt(chi_square_quantile(p, 1)) / normal_quantile((1 + p) / 2), 1, 1e-8) << p;
+    const double x = chi_square_quantile(p, 4);
+    EXPECT_NEAR(-std::expm1(-x / 2) - x / 2 * std::exp(-x / 2), p, 1e-9) << p;
+  }
+}
+
+// Any table of the distribution.
+TEST(ChiSquareQuantile, OfTables) {
+  EXPECT_NEAR(chi_square_quantile(0.975, 5), 12.8325, 5e-5);
+  EXPECT_NEAR(chi_square_quantile(0.025, 5), 0.8312, 5e-5);
+  EXPECT_NEAR(chi_square_quantile(0.975, 100), 129.561, 5e-4);
+  EXPECT_NEAR(chi_square_quantile(0.025, 100), 74.222, 5e-4);
+  // the normal distribution of the cube root (Wilson & Hilferty 1931) is off by 1e-6 there
+  EXPECT_NEAR(chi_square_quantile(0.975, 1e4) / (1e4 * std::pow(1 - 2 / 9e4 + normal_quantile(0.975) * std::sqrt(2 / 9e4), 3)), 1,
+              1e-5);
 }
 
 TEST(FTail, OfNoNumberIsNone) { EXPECT_TRUE(std::isnan(f_tail(std::nan(""), 3, 20))); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// STL, OBJ and PLY files: the same triangles as glTF, or one line about why not.
+// STL, OBJ, PLY, OFF and Collada files: the same triangles as glTF, or one line about why not.
 #include "core/meshes/assimp_triangles.h"
 
 #include <fmt/format.h>
@@ -67,7 +67,9 @@ std::vector<Written> written_in_all(const TriangleMesh& mesh) {
           {"a.obj", obj_text(mesh)},
           {"a.ply", ply_text(mesh, PlyWriting::ascii)},
           {"little.ply", ply_text(mesh, PlyWriting::little_endian)},
-          {"big.PLY", ply_text(mesh, PlyWriting::big_endian)}};
+          {"big.PLY", ply_text(mesh, PlyWriting::big_endian)},
+          {"a.off", off_text(mesh)},
+          {"a.dae", collada_text(mesh)}};
 }
 
 TEST_F(MeshFormats, AllGiveWhatGltfGives) {
@@ -77,7 +79,8 @@ TEST_F(MeshFormats, AllGiveWhatGltfGives) {
     const CheckedMesh checked = check_mesh(read(each.name, each.bytes), each.name);
     EXPECT_EQ(checked.mesh.vertices.size(), gltf.mesh.vertices.size()) << each.name;
     // in order of coordinates; assimp rounds decimal numbers twice, each time to a float
-    const double off = each.name == std::string("a.obj") || each.name == std::string("ascii.STL") ? 2 * 100 * 0x1p-23 : 0;
+    const std::string ending = std::filesystem::path(each.name).extension();
+    const double off = ending == ".obj" || ending == ".STL" || ending == ".off" || ending == ".dae" ? 2 * 100 * 0x1p-23 : 0;
     for (std::size_t i = 0; i < std::min(checked.mesh.vertices.size(), gltf.mesh.vertices.size()); ++i)
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(checked.mesh.vertices[i][k], gltf.mesh.vertices[i][k], off) << each.name;
     EXPECT_EQ(checked.mesh.triangles.size(), gltf.mesh.triangles.size()) << each.name;
@@ -90,8 +93,9 @@ TEST_F(MeshFormats, AllGiveWhatGltfGives) {
 TEST_F(MeshFormats, ContentDecidesWhereTheNameSaysNothing) {
   const TriangleMesh mesh = icosphere(0.05, 1);
   for (const Written& each : written_in_all(mesh)) EXPECT_EQ(read("scan", each.bytes).triangles.size(), 80u) << each.name;
-  EXPECT_NE(line("scan", "what is this").find("neither its name nor its first bytes are those of glTF, STL, OBJ or PLY"),
-            std::string::npos);
+  EXPECT_NE(
+      line("scan", "what is this").find("neither its name nor its first bytes are those of glTF, STL, OBJ, PLY, OFF or Collada"),
+      std::string::npos);
 }
 
 TEST_F(MeshFormats, NameAndContentMustAgree) {
@@ -142,7 +146,8 @@ TEST_F(MeshFormats, NumbersMadeOfLineEndsAndBlanksAreRead) {
 TEST_F(MeshFormats, WhatIsNoBodyIsRefused) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n";
   const std::string xyz = head + "property float y\nproperty float z\n", points = "end_header\n0 0 0\n1 0 0\n0 1 0\n";
-  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n",
+                    off_points = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
   const std::vector<std::array<std::string, 3>> cases{
       {"a.stl", "", "is empty"},
       {"a.stl", "cylinder", "as a binary STL it has another size"},
@@ -175,11 +180,44 @@ TEST_F(MeshFormats, WhatIsNoBodyIsRefused) {
       {"a.ply", xyz + faces + points + "3 0 1 -1\n", "has a face with the vertex -1"},
       {"a.ply", xyz + faces + points + "2 0 1\n", "has a face of 2 corners; 3 to 1,000 are read"},
       {"a.ply", xyz + "element tristrips 1\nproperty list int int vertex_indices\n" + points + "3 0 1 2\n", "triangle strips"},
-      {"a.ply", xyz + faces + points + "3 0 1 2\n", "has 1 triangle, and a body needs at least 4"}};
+      {"a.ply", xyz + faces + points + "3 0 1 2\n", "has 1 triangle, and a body needs at least 4"},
+      {"a.off", "what is this", "line 1: 'what' is no OFF of points in space"},
+      {"a.off", "4OFF\n1 1 0\n", "'4OFF' is no OFF of points in space"},
+      {"a.off", "OFF BINARY\n", "is a binary OFF, which is not read: export it as text"},
+      {"a.off", "OFF\n", "ends where a count of vertices should be"},
+      {"a.off", "OFF\n3\n1 0\n", "line 2: ends where a count of faces should be"},
+      {"a.off", "OFF\n-3 1 0\n", "'-3' is not a count of vertices"},
+      {"a.off", "OFF\n60000001 1 0\n", "more than 20 million triangles"},
+      {"a.off", "OFF\n3 0 0\n", "has no face"},
+      {"a.off", off_points + "3 0 1\n", "line 6: ends where a corner of a face should be"},
+      {"a.off", off_points + "3 0 1 3\n", "has a face with the vertex 3 and 3 vertices, counted from 0"},
+      {"a.off", off_points + "2 0 1\n", "has a face of 2 corners; 3 to 1,000 are read"},
+      {"a.off", "OFF\n3 1 0\n0 0 0\n1 0\n", "line 4: ends where a number should be"}};
   for (const auto& [name, bytes, gist] : cases) {
     const std::string said = line(name, bytes);
     EXPECT_NE(said.find(gist), std::string::npos) << "'" << gist << "' not in: " << said;
   }
+}
+
+TEST_F(MeshFormats, WritersOfOffDiffer) {
+  const std::string points = "0 0 0\n1 0 0\n0 2 0\n0 0 3\n", faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3";
+  for (const std::string& text :
+       {"OFF\n4 4 6\n" + points + faces, "OFF4 4 0\n" + points + faces,  // as ModelNet has it
+        "# a comment\nCOFF 4 4 0\n\n0 0 0 255 0 0 255\r\n1 0 0 1 0 0 1\n# another\n0 2 0\n0 0 3\n" + faces})
+    EXPECT_NEAR(check_mesh(read("scan", text), "scan").facts.volume, 1, 1e-7) << text;
+  EXPECT_EQ(off_input({"a.off", ""}, "OFF 5 1 0\n0 0 0\n1 0 0\n1 1 0\n0.5 2 0\n0 1 0\n5 0 1 2 3 4\n"),
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0.5 2 0\nv 0 1 0\nf 1 2 3 4 5\n");
+}
+
+TEST_F(MeshFormats, OtherFormatsAreNamedWithAConverter) {
+  EXPECT_NE(line("cup.FBX", "Kaydara FBX Binary  ")
+                .find("is .fbx, which is not read: convert it to glTF or STL, for example with Blender"),
+            std::string::npos);
+  EXPECT_NE(line("cup.step", "ISO-10303-21;").find("with FreeCAD"), std::string::npos);
+  EXPECT_NE(line("cup.3mf", "PK\3\4rest").find("with MeshLab"), std::string::npos) << "an archive";
+  EXPECT_NE(line("cup.usdz", "PK\3\4rest").find("with Blender"), std::string::npos);
+  EXPECT_NE(line("cup.zip", "PK\3\4rest").find("unpack it"), std::string::npos);
+  EXPECT_EQ(read("cup.fbx", stl_text(icosphere(0.05, 1))).triangles.size(), 80u) << "what it holds counts";
 }
 
 TEST_F(MeshFormats, TrianglesAreCountedBeforeTheyAreRead) {

@@ -6,10 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numbers>
+#include <random>
+#include <tuple>
 
 #include "base/text/error.h"
+#include "tests/support/mesh_faults.h"
 #include "tests/support/meshes.h"
 #include "tests/support/refusal.h"
 
@@ -48,17 +54,63 @@ TEST(MeshCheck, ClosedForms) {
 }
 
 TEST(MeshCheck, CornersInOnePlaceAreJoined) {
-  TriangleMesh loose;
-  for (const auto& triangle : cube().triangles) {
-    const auto first = static_cast<std::uint32_t>(loose.vertices.size());
-    for (const std::uint32_t corner : triangle) loose.vertices.push_back(cube().vertices[corner]);
-    loose.triangles.push_back({first, first + 1, first + 2});
-  }
+  TriangleMesh loose = unjoined(cube());
   loose.vertices.push_back({9, 9, 9});  // which no triangle uses
   const CheckedMesh checked = check_mesh(loose, "box");
   EXPECT_EQ(checked.mesh.vertices.size(), 8u);
   EXPECT_TRUE(checked.facts.closed);
   EXPECT_EQ(checked.facts.high, (Triple{0.1, 0.2, 0.3}));
+}
+
+// Joined by a hash, whatever the order of the file, and with the sign of a zero.
+TEST(MeshCheck, JoinedCornersAreInTheOrderOfTheirCoordinates) {
+  TriangleMesh apart, shuffled = torus(0.05, 0.02, 40, 20);
+  std::mt19937 random(1);
+  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), random);
+  for (const Corners& triangle : shuffled.triangles) {
+    const auto first = static_cast<std::uint32_t>(apart.vertices.size());
+    for (const std::uint32_t corner : triangle) {
+      Triple at = shuffled.vertices[corner];
+      for (double& x : at) x = x == 0 && random() % 2 == 0 ? -0.0 : x;
+      apart.vertices.push_back(at);
+    }
+    apart.triangles.push_back({first, first + 1, first + 2});
+  }
+  std::vector<Triple> expected = shuffled.vertices;
+  std::sort(expected.begin(), expected.end());
+  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  const CheckedMesh checked = check_mesh(apart, "torus");
+  EXPECT_EQ(checked.mesh.vertices, expected);
+  EXPECT_EQ(checked.facts.joined_corners, apart.vertices.size() - expected.size());
+  ASSERT_EQ(checked.mesh.triangles.size(), apart.triangles.size());
+  for (std::size_t i = 0; i < apart.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(checked.mesh.vertices[checked.mesh.triangles[i][k]], apart.vertices[apart.triangles[i][k]]);
+}
+
+TEST(MeshCheck, UsesOfEdgesAreSorted) {
+  std::mt19937 random(2);
+  std::vector<Corners> triangles;
+  for (int i = 0; i < 2000; ++i) {
+    const auto corner = static_cast<std::uint32_t>(random() % 50);
+    triangles.push_back({corner, corner + 1 + static_cast<std::uint32_t>(random() % 20), corner + 30});
+    std::shuffle(triangles.back().begin(), triangles.back().end(), random);
+  }
+  const std::vector<EdgeUse> uses = edge_uses(triangles);
+  ASSERT_EQ(uses.size(), 6000u);
+  const auto order = [](const EdgeUse& use) { return std::tie(use.low, use.high, use.triangle); };
+  std::map<std::array<std::uint32_t, 3>, bool> expected;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
+      expected[{std::min(from, to), std::max(from, to), t}] = from < to;
+    }
+  EXPECT_EQ(expected.size(), uses.size());
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    EXPECT_EQ((expected.at({uses[i].low, uses[i].high, uses[i].triangle})), uses[i].is_forward);
+    EXPECT_TRUE(i == 0 || order(uses[i - 1]) < order(uses[i]));
+  }
+  EXPECT_TRUE(edge_uses({}).empty());
 }
 
 TEST(MeshCheck, InsideOutIsTurnedRound) {
@@ -233,14 +285,6 @@ TEST(MeshCheck, CopiesOfTrianglesAreLeftOut) {
   EXPECT_TRUE(says(mesh_check_text(checked.facts), "60 triangles were there before and left out."));
 }
 
-TriangleMesh two_sided(TriangleMesh mesh) {
-  for (std::size_t i = 0, count = mesh.triangles.size(); i < count; ++i) {
-    const auto [a, b, c] = mesh.triangles[i];
-    mesh.triangles.push_back({a, c, b});
-  }
-  return mesh;
-}
-
 TEST(MeshCheck, TheBackOfATwoSidedSurfaceIsLeftOut) {
   const CheckedMesh whole = check_mesh(two_sided(cube()), "cup");
   EXPECT_EQ(whole.facts.back_triangles, 12u);
@@ -308,8 +352,13 @@ TEST(MeshCheck, HolesAreMeasuredAndOffered) {
   EXPECT_TRUE(says(mesh_check_text(facts), ": 1 hole, up to ")) << mesh_check_text(facts);
   EXPECT_TRUE(says(mesh_check_text(facts), "which close_holes = true closes."));
   const MeshFacts bowl = check_mesh(open_hemisphere(0.05, 4), "bowl").facts;
-  EXPECT_TRUE(says(mesh_check_text(bowl), "1 hole, up to 141.4 mm across, more than the 10 mm that close_holes closes"))
-      << mesh_check_text(bowl);
+  EXPECT_TRUE(says(mesh_check_text(bowl), "1 hole, up to 141.4 mm across, which close_holes = true closes.")) << "flat";
+  // and one that is not, of the same size up and down
+  const MeshFacts wavy = check_mesh(joined(open_hemisphere(0.05, 4), wavy_bowl(0.03, 4, 0.01)), "bowls").facts;
+  EXPECT_TRUE(says(mesh_check_text(wavy),
+                   "2 holes, up to 141.4 mm across, which close_holes does not close, as 1, up to 87.18 mm across, is neither flat "
+                   "nor small: close them"))
+      << mesh_check_text(wavy);
 }
 
 // A ball with a hole of one triangle, and a triangle that stands on an edge.
@@ -355,7 +404,7 @@ TEST(MeshCheck, ClosingHolesWithoutAnyIsSaid) {
   EXPECT_FALSE(says(mesh_check_text(check_mesh(cube(), "box").facts), "close_holes"));
 }
 
-TEST(MeshCheck, LargeHolesAreRefusedWithTheirSize) {
+TEST(MeshCheck, LargeHolesThatAreNotFlatAreRefusedWithNumberAndSize) {
   const auto line = [](const TriangleMesh& mesh) -> std::string {
     try {
       check_mesh(mesh, "bowl.stl", true);
@@ -365,12 +414,17 @@ TEST(MeshCheck, LargeHolesAreRefusedWithTheirSize) {
     }
     return "closed";
   };
-  const std::string bowl = line(open_hemisphere(0.05, 4));
-  EXPECT_TRUE(says(bowl, "bowl.stl: close_holes: a hole is 141.4 mm across, its edge 314 mm")) << bowl;
+  const std::string bowl = line(wavy_bowl(0.05, 4, 0.01));
+  EXPECT_TRUE(says(bowl, "bowl.stl: close_holes: 1 of 1 hole is neither flat nor small, up to 142.8 mm across and 32")) << bowl;
   EXPECT_TRUE(says(bowl, "at most 10 and 40 mm are closed: close it where the mesh was made")) << bowl;
+  const TriangleMesh both = joined(wavy_bowl(0.05, 4, 0.01), placed_mesh(wavy_bowl(0.05, 4, 0.01), {}, {0.2, 0, 0}));
+  const std::string bowls = line(joined(both, placed_mesh(open_hemisphere(0.05, 4), {}, {0.4, 0, 0})));
+  EXPECT_TRUE(says(bowls, "close_holes: 2 of 3 holes are neither flat nor small, up to 142.8 mm across")) << bowls;
+  EXPECT_TRUE(says(bowls, "close them where the mesh was made")) << bowls;
   const std::string fin = line(ball_with_a_fin());
   EXPECT_TRUE(says(fin, "bowl.stl: close_holes: 2 open edges form no loop, as a surface meets others there")) << fin;
   EXPECT_EQ(line(icosphere(0.05, 4)), "closed");
+  EXPECT_EQ(line(open_hemisphere(0.05, 4)), "closed");
 }
 
 }  // namespace

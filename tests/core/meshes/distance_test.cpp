@@ -291,5 +291,74 @@ TEST(MeshDistance, TheWindingTreeIsNearTheSum) {
   EXPECT_LT(fine, 1e-3);
 }
 
+// Whichever triangle the search starts from, it finds the nearest one: none is rejected by its disk that should not be. Needles have normals that
+// are rounding.
+TEST(MeshDistance, EveryStartFindsTheNearestTriangle) {
+  Random random(7);
+  const auto place = [&](double size) {
+    const double x = random.uniform(-size, size), y = random.uniform(-size, size);
+    return Triple{x, y, random.uniform(-size, size)};
+  };
+  CheckedMesh soup;
+  for (int i = 0; i < 150; ++i) {
+    const Triple a = place(0.1), along = place(i % 3 == 0 ? 0.05 : 0.005), aside = place(i % 5 == 0 ? 1e-12 : 0.005);
+    const auto first = static_cast<std::uint32_t>(soup.mesh.vertices.size());
+    soup.mesh.vertices.push_back(a);
+    soup.mesh.vertices.push_back({a[0] + along[0], a[1] + along[1], a[2] + along[2]});
+    soup.mesh.vertices.push_back({a[0] + along[0] / 3 + aside[0], a[1] + along[1] / 3 + aside[1], a[2] + along[2] / 3 + aside[2]});
+    soup.mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  soup.facts.low = {-0.2, -0.2, -0.2};
+  soup.facts.high = {0.2, 0.2, 0.2};
+  soup.facts.closed = soup.facts.oriented = true;
+  const MeshDistance distance(soup);
+  for (int i = 0; i < 200; ++i) {
+    const Triple p = place(i % 2 == 0 ? 0.1 : 0.3);
+    std::uint32_t nearest = 0;
+    const double first = distance.distance(p, nearest);
+    for (std::uint32_t start = 1; start < soup.mesh.triangles.size(); ++start) {
+      std::uint32_t found = start;
+      EXPECT_EQ(distance.distance(p, found), first) << start;
+    }
+  }
+}
+
+// On its axis the winding number of a disk of radius R changes by R2 / (2 (R2 + z2)^1.5) per m; the bound lacks the slant of the rim's pull.
+TEST(MeshDistance, TheSlopeOfTheWindingNumberIsThatOfItsRim) {
+  const CheckedMesh bowl = check_mesh(open_hemisphere(0.05, 5), "bowl");
+  const MeshDistance distance(bowl);
+  for (const double z : {-0.2, -0.05, 0.0, 0.04, 0.3}) {
+    const double squared = 0.05 * 0.05 + z * z, slope = distance.winding_slope({0, z, 0}, 0);
+    EXPECT_GE(slope, 0.05 * 0.05 / (2 * std::pow(squared, 1.5)));
+    // edges of 2.5 mm, each counted from its nearer end
+    EXPECT_NEAR(slope, 0.05 / (2 * squared), 0.06 * slope);
+    EXPECT_GT(distance.winding_slope({0, z, 0}, 0.01), slope);
+  }
+  EXPECT_EQ(distance.winding_slope({0.045, 0, 0}, 0.01), std::numeric_limits<double>::infinity());
+  const CheckedMesh ball = check_mesh(icosphere(0.05, 3), "ball");
+  EXPECT_EQ(MeshDistance(ball).winding_slope({0, 0, 0}, 1), 0);
+  EXPECT_EQ(MeshDistance(ball).side({0, 0, 0}).room, std::numeric_limits<double>::infinity());
+}
+
+TEST(MeshDistance, NoWindingNumberChangesFasterThanItsSlope) {
+  const CheckedMesh bowl = check_mesh(wavy_bowl(0.05, 4, 0.01), "bowl");
+  const MeshDistance distance(bowl);
+  Random random(8);
+  int compared = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto place = [&](double size) {
+      const double x = random.uniform(-size, size), y = random.uniform(-size, size);
+      return Triple{x, y, random.uniform(-size, size)};
+    };
+    const Triple p = place(0.1), step = place(0.01), q{p[0] + step[0], p[1] + step[1], p[2] + step[2]};
+    std::uint32_t nearest = 0;
+    const double way = norm(step), slope = distance.winding_slope(p, way);
+    if (!(distance.distance(p, nearest) > way) || slope > 1e9) continue;
+    ++compared;
+    EXPECT_LE(std::abs(distance.winding_number(q) - distance.winding_number(p)), slope * way + 2e-3) << "each is right to 1e-3";
+  }
+  EXPECT_GT(compared, 10'000);
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -242,7 +242,7 @@ TEST(MeshHints, FollowingARemedyHelps) {
     TriangleMesh mended_mesh;
     std::string mended_keys;
   };
-  const TriangleMesh box = box_mesh({-0.03, 0, -0.03}, {0.03, 0.1, 0.03}), open = open_box({});
+  const TriangleMesh box = box_mesh({-0.03, 0, -0.03}, {0.03, 0.1, 0.03}), wavy = wavy_bowl(0.04, 3, 0.01);
   TriangleMesh walled = box, finned = box, flat = box, one_sided = box, holed = icosphere(0.05, 4);
   walled.triangles.push_back({0, 2, 5});
   finned.vertices.push_back({0.05, 0.12, 0.05});
@@ -262,13 +262,13 @@ TEST(MeshHints, FollowingARemedyHelps) {
   const std::vector<Case> cases{
       {cup, through, "move it where the mesh is hollow", cup, hollow},
       {cup, through, "or make the mesh its hull", box_mesh({-0.04, 0, -0.04}, {0.04, 0.1, 0.04}), through},
-      {open, "", "close them for a sure answer", box, ""},
+      {wavy, "", "close them for a sure answer", box, ""},
       {joined(box, placed_mesh(one_sided, {}, {0.1, 0, 0})), "", "meet at edges: make one body of it", box, ""},
       {one_sided, "", "make one closed body of it", box, ""},
       {one_sided, "", "or give mass_kg", one_sided, "mass_kg = 0.1"},
       {holed, "close_holes = true\nmass_kg = 0.1\ndensity_kg_m3 = 2000", "allowed: one of the two", holed,
        "close_holes = true\nmass_kg = 0.1"},
-      {open, "close_holes = true", "or leave out close_holes", open, ""},
+      {wavy, "close_holes = true", "or leave out close_holes", wavy, ""},
       {finned, "close_holes = true", "form no loop, as a surface meets others there: remove it", box, "close_holes = true"},
       {box, "close_holes = true", "close_holes closes nothing", box, ""},
       {holed, "", "which close_holes = true closes", holed, "close_holes = true"},

@@ -65,6 +65,31 @@ TEST(MeshLattice, AnOpenMeshKeepsItsSides) {
   EXPECT_NEAR(core_f64::lattice_distance(lattice, {0, 0.055, 0}), 0.005, 1e-3);
 }
 
+// The side of most samples is that of the one before; here each is asked for.
+TEST(MeshLattice, SamplesOfOpenMeshesAreThoseTakenOneByOne) {
+  TriangleMesh sieve = icosphere(0.04, 4);
+  for (std::size_t i = 0; i < sieve.triangles.size(); i += 100)
+    sieve.triangles.erase(sieve.triangles.begin() + static_cast<std::ptrdiff_t>(i));
+  for (const TriangleMesh& open : {open_hemisphere(0.05, 4), wavy_bowl(0.05, 3, 0.02), sieve}) {
+    const CheckedMesh mesh = check_mesh(open, "bowl");
+    const MeshDistance distance(mesh);
+    ASSERT_EQ(distance.sign(), MeshSign::winding);
+    LatticeSpec spec;
+    spec.spacing = 3e-3;
+    spec.margin = 20e-3;
+    const PreparedLattice lattice = lattice_of_mesh(distance, mesh, spec).lattice;
+    const core_f64::Lattice loaded = core_f64::load_lattice(lattice);
+    int differences = 0;
+    for (int k = 0; k < lattice.nz; ++k)
+      for (int j = 0; j < lattice.ny; ++j)
+        for (int i = 0; i < lattice.nx; ++i) {
+          const Triple p{lattice.origin[0] + 3e-3 * i, lattice.origin[1] + 3e-3 * j, lattice.origin[2] + 3e-3 * k};
+          differences += core_f64::lattice_sample(loaded, i, j, k) != static_cast<float>(distance.signed_distance(p));
+        }
+    EXPECT_EQ(differences, 0);
+  }
+}
+
 // Largest difference between the lattice and a closed form in a band of 5 mm on both sides of the surface.
 double band_error(const TriangleMesh& triangles, double spacing, const std::function<double(const Triple&)>& exact) {
   const CheckedMesh mesh = check_mesh(triangles, "body");
@@ -322,18 +347,61 @@ TEST(MeshLattice, RowsAreTimedBeforeTheSamplesAreTaken) {
     bool has_begun = false;
     LatticeForecast forecast;
     forecast.clock = [&] { return now += step; };
-    forecast.say = [&](const PreparedLattice& lattice, double seconds) {
+    forecast.say = [&](const LatticePlan& plan) {
       EXPECT_FALSE(has_begun);
       EXPECT_EQ(announced, -1) << "once";
-      EXPECT_EQ(lattice.ny, plain.lattice.ny);
-      announced = seconds;
+      EXPECT_EQ(plan.lattice.ny, plain.lattice.ny);
+      EXPECT_FALSE(plan.finer);
+      announced = plan.seconds;
     };
+    forecast.most_seconds = 1;  // which has no say where the spacing is given
     const MeshLattice made = lattice_of_mesh(
         MeshDistance(mesh), mesh, spec, [&](double share) { has_begun = share > 0; }, forecast);
     // two rows, one a thread, took 4 s by that clock
     EXPECT_EQ(announced, step / 2 * plain.lattice.ny * plain.lattice.nz);
     EXPECT_EQ(*made.lattice.words, *plain.lattice.words) << "timing changes no sample";
   }
+}
+
+double samples_in(const PreparedLattice& lattice) { return 1.0 * lattice.nx * lattice.ny * lattice.nz; }
+
+// By the same clock.
+TEST(MeshLattice, OneThatTakesTooLongGivesWay) {
+  const CheckedMesh mesh = check_mesh(icosphere(0.05, 3), "ball");
+  const MeshDistance distance(mesh);
+  LatticeSpec spec;
+  spec.tolerance = 0.1e-3;
+  spec.threads = 2;
+  const MeshLattice aimed_at = lattice_of_mesh(distance, mesh, spec);
+  // two rows take 4 s
+  const double whole = 2.0 * aimed_at.lattice.ny * aimed_at.lattice.nz;
+  LatticePlan plan;
+  const auto within = [&](double most_seconds) {
+    LatticeForecast forecast;
+    forecast.clock = [now = 0.0]() mutable { return now += 4; };
+    forecast.say = [&](const LatticePlan& made) { plan = made; };
+    forecast.most_seconds = most_seconds;
+    return lattice_of_mesh(distance, mesh, spec, {}, forecast);
+  };
+  const MeshLattice same = within(whole);
+  EXPECT_EQ(*same.lattice.words, *aimed_at.lattice.words);
+  EXPECT_FALSE(plan.finer || same.at_limit);
+  const MeshLattice quick = within(whole / 2);
+  ASSERT_TRUE(plan.finer && quick.at_limit);
+  EXPECT_EQ(plan.finer->spacing, aimed_at.lattice.spacing);
+  EXPECT_EQ(plan.finer_seconds, whole);
+  EXPECT_EQ(plan.lattice.spacing, quick.lattice.spacing);
+  EXPECT_DOUBLE_EQ(plan.seconds, whole * samples_in(quick.lattice) / samples_in(aimed_at.lattice));
+  EXPECT_LE(plan.seconds, whole / 2);
+  // spacings are sought to 1e-4
+  EXPECT_GT(samples_in(*lattice_at(mesh.facts, spec, quick.lattice.spacing * (1 - 1.01e-4))), samples_in(aimed_at.lattice) / 2);
+  EXPECT_GT(quick.error, aimed_at.error);
+  const MeshLattice coarsest = within(1e-3);
+  EXPECT_DOUBLE_EQ(coarsest.lattice.spacing, 0.1 / 24) << "at least as many cells as the search starts with";
+  spec.spacing = quick.lattice.spacing;
+  const MeshLattice again = within(1e-3);
+  EXPECT_EQ(*again.lattice.words, *quick.lattice.words) << "asked for by its spacing";
+  EXPECT_FALSE(plan.finer);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -14,8 +15,9 @@
 #include "base/files/json.h"
 #include "core/scene.h"
 #include "tests/support/files.h"
-
 #include "tests/support/gltf_making.h"
+#include "tests/support/meshes.h"
+#include "tests/support/refusal.h"
 
 namespace wholehand {
 namespace {
@@ -26,11 +28,8 @@ TEST(Mesh, WhatIsNotReadIsNamedWithTheRemedy) {
                 g.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
               }),
               "morph targets");
-  for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-    const std::string line = refusal_after([&](Gltf& g) { g.json["extensionsUsed"] = g.json["extensionsRequired"] = {name}; });
-    EXPECT_SAYS(line, name);
-    EXPECT_SAYS(line, "without compression");
-  }
+  EXPECT_SAYS(refusal_after([](Gltf& g) { g.json["extensionsUsed"] = {"KHR_meshopt_compression"}; }),
+              "is compressed (KHR_meshopt_compression), which is not read");
   EXPECT_SAYS(refusal_after([](Gltf& g) { g.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"}; }), "make them real");
   EXPECT_SAYS(refusal_after([](Gltf& g) { g.json["extensionsUsed"] = {"KHR_node_visibility"}; }), "remove what is hidden");
   EXPECT_SAYS(refusal_after([](Gltf& g) { g.json["extensionsRequired"] = {"ACME_shape"}; }), "requires the extension ACME_shape");
@@ -60,7 +59,7 @@ TEST(Mesh, AFileIsReadOnceItsRemedyIsFollowed) {
          g.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
        },
        "apply the shape keys", [](Gltf& g) { g.json["meshes"][0]["primitives"][0].erase("targets"); }},
-      {used("KHR_draco_mesh_compression"), "export it without compression", without_extensions},
+      {used("KHR_meshopt_compression"), "export it with EXT_meshopt_compression, or without", without_extensions},
       {used("EXT_mesh_gpu_instancing"), "make them real, then export",
        [&](Gltf& g) {
          without_extensions(g);
@@ -245,6 +244,30 @@ TEST(Mesh, ShapesThatAreNoBodyAreRefused) {
     Gltf gltf;
     gltf.primitive(gltf.positions(numbers), gltf.indices(TETRAHEDRON_FACES));
     EXPECT_SAYS(mesh_refusal(gltf), "not a finite number");
+  }
+}
+
+TEST(Mesh, NumbersOfAnStlThatAreNoneAreRefused) {
+  constexpr std::size_t HEAD = 84, RECORD = 50, NORMAL = 12;
+  const std::string whole = stl_text(box_mesh({0, 0, 0}, {1, 1, 1}));
+  const auto with_number = [&](float number, std::size_t triangle, std::size_t corner, std::size_t axis) {
+    std::string bytes = whole;
+    std::memcpy(bytes.data() + HEAD + RECORD * triangle + NORMAL + 12 * corner + 4 * axis, &number, sizeof number);
+    return mesh_refusal(mesh_as_is(write_gltf("bad.stl", bytes)));
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  EXPECT_SAYS(with_number(nan, 0, 0, 0), "triangle 1: 'nan' is no finite number");
+  EXPECT_SAYS(with_number(infinity, 6, 1, 1), "triangle 7: 'inf' is no finite number");
+  EXPECT_SAYS(with_number(-infinity, 11, 2, 2), "triangle 12: '-inf' is no finite number");
+  EXPECT_SAYS(with_number(3e38F, 3, 0, 2), "has a vertex at 3e+38, beyond 1e+15, in its own numbers");
+  EXPECT_SAYS(with_number(1e14F, 3, 0, 2), "more than a million km away: its scale is wrong");
+}
+
+TEST(Mesh, NumbersThatNoScaleBringsNearAreRefused) {
+  const TriangleMesh box = box_mesh({0, 0, 0}, {1, 1e20, 1});
+  for (const auto& far : {std::pair("far.glb", glb_text(box)), {"far.obj", obj_text(box)}, {"far.off", off_text(box)}}) {
+    EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf(far.first, far.second))), "has a vertex at 1e+20, beyond 1e+15");
+    EXPECT_SAYS(refusal_line([&] { read_triangles({gltf_folder() + "/" + far.first, ""}); }), "beyond 1e+15");
   }
 }
 

@@ -31,7 +31,7 @@ const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
      {"name",     "shape",      "diameter_mm", "height_mm",     "neck_mm", "upright_mm",        "shoulder_mm",   "outline",
       "mesh",     "mesh_scale", "rotate_deg",  "origin",        "grid_mm", "inner_outline",     "wall_mm",       "floor_mm",
       "surface",  "up",         "close_holes", "density_kg_m3", "mass_kg", "center_of_mass_mm", "force_range_N", "guidance_mm",
-      "place_mm", "liquid"}},
+      "place_mm", "liquid",     "part",        "thickness_mm"}},
     {"[liquid]", {"density_kg_m3", "fills", "fills_ml", "pour"}},
     {"[force]", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm"}},
     {"[strength]", {"thumb_N", "index_N", "middle_N", "ring_N", "little_N", "palm_N", "opening", "efforts"}},

@@ -258,6 +258,9 @@ TEST(SceneReader, ReadsVessels) {
   EXPECT_TRUE(scanned.mesh->close_holes);
   EXPECT_EQ(scanned.mesh->rotate, (Triple{radians(90), 0, radians(-45)}));
   EXPECT_FALSE(scanned.mesh->origin_at_base);
+  EXPECT_FALSE(scanned.mesh->origin);
+  EXPECT_TRUE(scanned.mesh->parts.empty());
+  EXPECT_FALSE(scanned.mesh->thickness);
   EXPECT_EQ(scanned.mesh->lattice_spacing, 1.5e-3);
   ASSERT_EQ(scanned.inner.size(), 4u);
   EXPECT_EQ(scanned.inner[0].end, (std::array<double, 2>{0, -3e-3}));
@@ -267,6 +270,20 @@ TEST(SceneReader, ReadsVessels) {
   EXPECT_EQ(scene.grips.azimuth.values.size(), 24u);
   EXPECT_EQ(scene.grips.azimuth.values[1], radians(15));
   EXPECT_TRUE(scanned.outline.empty());
+}
+
+TEST(SceneReader, ReadsPartsOriginAndThicknessOfAMesh) {
+  const auto mesh = [](const std::string& keys) {
+    return scene_from("[[vessel]]\nname = \"v\"\nmesh = \"a.glb\"\n" + keys).vessels[0].mesh.value();
+  };
+  EXPECT_EQ(mesh("part = 1").parts, std::vector<int>{1});
+  EXPECT_EQ(mesh("part = 100000").parts, std::vector<int>{100000});
+  EXPECT_EQ(mesh("part = [3, 1, 2]").parts, (std::vector<int>{3, 1, 2}));
+  EXPECT_EQ(mesh("origin = [1.5, -20, 0]").origin, (Triple{1.5e-3, -20e-3, 0}));
+  EXPECT_TRUE(mesh("origin = \"base\"").origin_at_base);
+  EXPECT_FALSE(mesh("origin = \"base\"").origin);
+  EXPECT_EQ(mesh("thickness_mm = 2.5").thickness, 2.5e-3);
+  EXPECT_EQ(mesh("thickness_mm = 0.05\nclose_holes = false").thickness, 0.05e-3);
 }
 
 TEST(SceneReader, ReadsLiquidForceScoreAndOutput) {

@@ -11,6 +11,7 @@
 #include "core/evaluator.h"
 #include "core/mirror.h"
 #include "core/vectors.h"
+#include "device/session/grip_of_tips.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"

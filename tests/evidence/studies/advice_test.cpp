@@ -40,6 +40,7 @@ TEST(AdviceStatistics, AreOfDifferencesPersonByPerson) {
   EXPECT_LT(difference.interval.high, -0.09);
   EXPECT_GT(without.interval.high - without.interval.low, 0.1);
   EXPECT_EQ(row_of(rows, "time_mean", "difference").value, 3);
+  EXPECT_EQ(without.count.people, std::optional<std::uint64_t>(20));
   EXPECT_EQ(row_of(rows, "lost_share", "difference").value, 0);
   const std::vector<StudyRow> again = advice_rows(people, 1, 500, 1);
   for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(rows[k].interval.low, again[k].interval.low);

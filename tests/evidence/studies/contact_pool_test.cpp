@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/statistics/moments.h"
 #include "base/statistics/resample.h"
 #include "core/people/draws.h"
 
@@ -45,7 +46,7 @@ std::vector<ContactGrasp> person_grasps(std::uint64_t person, const std::set<std
   return grasps;
 }
 
-TEST(ContactPool, ASampleHasThePapersGraspsNoneTwice) {
+TEST(ContactPool, ASampleHasThePapersGrasps) {
   const std::vector<StudyVessel> vessels = pool_vessels();
   for (const std::uint64_t count : {17u, 18u, 40u}) {
     ContactPool pool(vessels, count);
@@ -60,18 +61,16 @@ TEST(ContactPool, ASampleHasThePapersGraspsNoneTwice) {
       EXPECT_EQ(drawn[1].size(), 17u) << "17 people make no more";
       EXPECT_EQ(drawn[2].size(), 18u);
       EXPECT_EQ(drawn[3].size(), 17u);
-      std::set<double> heights;
       std::set<std::uint64_t> people;
       for (std::size_t v = 0; v < drawn.size(); ++v)
         for (const ContactGrasp* grasp : drawn[v]) {
           const auto name = static_cast<std::uint64_t>(grasp->height);
-          EXPECT_TRUE(heights.insert(grasp->height).second) << grasp->height << " twice";
           EXPECT_EQ(name / 10 % 10, pose);
           EXPECT_GE(name % 10, vessels[v].first);
           EXPECT_LT(name % 10, vessels[v].last);
           people.insert(name / 100);
         }
-      EXPECT_EQ(people.size(), PAPER_PEOPLE);
+      EXPECT_LE(people.size(), PAPER_PEOPLE);
       seen.insert(people.begin(), people.end());
     }
     EXPECT_EQ(seen.size(), count) << "all have their turn";
@@ -106,6 +105,39 @@ TEST(ContactPool, StopsWhereEnoughGraspsHold) {
   EXPECT_GT(most, 18u) << "lost ones are made and counted";
 }
 
+// Every second of 10 people loses the third vessel's three grasps, nobody holds the second vessel, and person 4 has all projected points.
+TEST(ContactPool, CountsPeopleAndGrasps) {
+  const std::vector<StudyVessel> vessels = pool_vessels();
+  VesselTallies tallies(vessels);
+  for (std::uint64_t person = 0; person < 10; ++person) {
+    std::vector<ContactGrasp> grasps =
+        person_grasps(person, person % 2 == 0 ? std::set<std::size_t>{2, 3, 4, 5} : std::set<std::size_t>{2});
+    for (ContactGrasp& grasp : grasps) grasp.inner_mask = person == 4 ? 1 : 0;
+    tallies.add(Grasps(grasps).first(POOL_SLOTS));
+  }
+  const std::vector<StudyCount> counts = tallies.counts();
+  ASSERT_EQ(counts.size(), 5 * contact_statistics().size());
+  const auto has_count = [&](std::size_t vessel, const std::string& statistic, std::uint64_t people, std::uint64_t grasps) {
+    const auto found = std::find_if(contact_statistics().begin(), contact_statistics().end(),
+                                    [&](const ContactStatistic& one) { return one.name == statistic; });
+    const StudyCount& count =
+        counts[vessel * contact_statistics().size() + static_cast<std::size_t>(found - contact_statistics().begin())];
+    EXPECT_EQ(count.people, std::optional(people)) << vessel << ' ' << statistic;
+    EXPECT_EQ(count.grasps, std::optional(grasps)) << vessel << ' ' << statistic;
+  };
+  has_count(0, "held_share", 10, 20);
+  has_count(1, "held_share", 10, 10);
+  has_count(1, "mean_fingers", 0, 0);
+  has_count(2, "held_share", 10, 30);
+  has_count(2, "point_biserial_height", 5, 15);
+  has_count(2, "projected_inner_share", 0, 0);
+  has_count(0, "projected_inner_share", 1, 2);
+  has_count(0, "projected_share", 10, 20);
+  has_count(3, "touch_share", 10, 10);
+  has_count(4, "held_share", 10, 60);
+  has_count(4, "touch_share", 10, 35);
+}
+
 TEST(ContactPool, SamplesAreTheSeeds) {
   const std::vector<StudyVessel> vessels = pool_vessels();
   ContactPool pool(vessels, 40);
@@ -120,26 +152,25 @@ std::size_t place_of_statistic(std::size_t vessel, const std::string& name) {
   return 0;
 }
 
-// A sample of 17 people has all 17 grasps of the second vessel. In one of 1,700 people the mean of 17 numbers of fingers, 1 to 5, scatters.
+// Each person grasps the second vessel once, with 1 to 5 fingers. The mean of 17 has the variance that draw_people promises.
 TEST(ContactPool, IntervalsAreThoseOfSmallSamples) {
   const std::vector<StudyVessel> vessels = pool_vessels();
   for (const std::uint64_t count : {17u, 1700u}) {
     ContactPool pool(vessels, count);
-    double sum = 0;
+    std::vector<double> fingers;
     for (std::uint64_t person = 0; person < count; ++person) {
       pool.add(person_grasps(person));
-      sum += static_cast<double>(person % 5 + 1);
+      fingers.push_back(static_cast<double>(person % 5 + 1));
     }
     std::vector<std::vector<double>> samples;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) samples.push_back(pool.sample(1, seed));
     const Interval interval = sample_intervals(samples)[place_of_statistic(1, "mean_fingers")];
-    const double mean = sum / static_cast<double>(count);
-    // a number from 1 to 5 has the variance 2, and the mean of 17 of 1,700 people, none twice, 2 / 17 of 1,683 / 1,699
-    const double half = count == 17 ? 0 : NORMAL_95 * std::sqrt(2.0 / 17 * 1683 / 1699);
-    // 1 / 17 is what the mean goes in, and a percentile of 2,000 samples is off by 0.06 deviations
-    const double tolerance = count == 17 ? 1e-12 : 1.0 / 17 + 3 * 0.06 * std::sqrt(2.0 / 17);
-    EXPECT_NEAR(interval.low, mean - half, tolerance) << count;
-    EXPECT_NEAR(interval.high, mean + half, tolerance) << count;
+    const auto known = static_cast<double>(count);
+    const double deviation = deviation_of(fingers) * std::sqrt((1.0 / 17 + 1 / known) * (known - 1) / (known + 1));
+    // 1 / 17 is what the mean goes in, and an end of 2,000 samples is off by 0.06 deviations
+    const double tolerance = 1.0 / 17 + 3 * 0.06 * deviation;
+    EXPECT_NEAR(interval.low, mean_of(fingers) - NORMAL_95 * deviation, tolerance) << count;
+    EXPECT_NEAR(interval.high, mean_of(fingers) + NORMAL_95 * deviation, tolerance) << count;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace wholehand {
 namespace {
@@ -65,6 +66,16 @@ TEST(ForceStatistics, CoefficientsAreThoseOfTheOdds) {
   EXPECT_NEAR(row(rows, "coefficient_range", "lost").value, std::log(3.0) / 2, 1e-6);
   EXPECT_EQ(row(rows, "base_ahead_of_range", "lost").value, 1);
   EXPECT_TRUE(std::isnan(row(rows, "lost_share", "0.4").value)) << "nobody gripped";
+  const auto has_count = [&](const std::string& statistic, const std::string& subject, std::uint64_t of_people,
+                             std::uint64_t trials) {
+    const StudyCount& count = row(rows, statistic, subject).count;
+    EXPECT_EQ(count.people, std::optional(of_people)) << statistic << ' ' << subject;
+    EXPECT_EQ(count.grasps, std::optional(trials)) << statistic << ' ' << subject;
+  };
+  has_count("lost_share", "0.4", 0, 0);
+  has_count("lost_share", "1.6", 40, 40);
+  has_count("gripped_share", "0.4", 40, 40);
+  has_count("coefficient_base", "lost", 40, 120);
 }
 
 TEST(ForceStatistics, NobodyLosesSoNothingSaysWhatMattersMore) {
@@ -76,16 +87,27 @@ TEST(ForceStatistics, NobodyLosesSoNothingSaysWhatMattersMore) {
   EXPECT_EQ(row(rows, "lost_share", "2.2").inside(), std::optional(false));
 }
 
-// Half of 400 people: ten of them are a hypergeometric draw, whose 2.5th and 97.5th percentile are 2 and 8 of 10 (the tails
-// beyond are 1.0 % below 2, and 5.3 % below 3).
-TEST(ForceStatistics, IntervalsAreThoseOfTenPeople) {
-  std::array<std::size_t, FORCE_CHOICES> half{};
-  half.fill(200);
-  const std::vector<StudyRow> rows = force_rows(made(400, half), "v", 3, 1000, 2);
-  const StudyRow& lost = row(rows, "lost_share", "0.8");
-  EXPECT_EQ(lost.value, 0.5);
-  EXPECT_EQ(lost.interval.low, 0.2);
-  EXPECT_EQ(lost.interval.high, 0.8);
+// Whole counts of ten people hold 95 % or more. Each end is the tightest that leaves no more than 2.5 % beyond it, by the binomial distribution where
+// many people are known. Shares for which a tail is within three errors of 2.5 %, by 4,000 samples, are left out.
+TEST(ForceStatistics, IntervalsAreTheTightestWholeCountsOfTenPeople) {
+  const std::map<std::size_t, double> shares{{0, 0.1}, {1, 0.2}, {2, 0.4},  {3, 0.5}, {4, 0.6},
+                                             {5, 0.8}, {6, 0.9}, {7, 0.01}, {8, 1}};
+  std::array<std::size_t, FORCE_CHOICES> losing{};
+  for (const auto& [choice, share] : shares) losing[choice] = static_cast<std::size_t>(std::lround(share * 4000));
+  const std::vector<StudyRow> rows = force_rows(made(4000, losing), "v", 3, 4000, 2);
+  for (const auto& [choice, share] : shares) {
+    double below = 0, chance = std::pow(1 - share, 10);  // of fewer than `count`, and of `count`
+    int low = -1, high = -1;
+    for (int count = 0; count <= 10; ++count) {
+      if (low < 0 && below + chance > 0.025) low = count;
+      if (high < 0 && below + chance >= 0.975) high = count;
+      below += chance;
+      chance = share < 1 ? chance * (10 - count) / (count + 1) * share / (1 - share) : count == 9 ? 1 : 0;
+    }
+    const Interval found = row(rows, "lost_share", choice_name(PAPER_CHOICES[choice])).interval;
+    EXPECT_EQ(found.low, low / 10.0) << share;
+    EXPECT_EQ(found.high, high / 10.0) << share;
+  }
 }
 
 TEST(ForceStatistics, FewerThanTenPeopleHaveNoIntervalsAndThreadsChangeNothing) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "evidence/studies/answer.h"
 #include "evidence/studies/session_page.h"
 #include "evidence/studies/statistic_words.h"
 #include "evidence/studies/summary.h"
@@ -70,6 +71,51 @@ TEST(StudyPage, SaysWhoThePeopleAre) {
   EXPECT_TRUE(has(recorded.words.front(), "glass stands for the paper's vessel 1: 22, jug stands for the paper's vessel 2: 32"));
   EXPECT_TRUE(has(recorded.words.back(), "those of the recordings"));
   EXPECT_TRUE(has(simulated.words.back(), "virtual"));
+}
+
+// Rows on every side of their intervals, one of them without width.
+std::vector<StudyRow> compared_rows() {
+  return {
+      {"contacts", "paper", "all", "held_share", "", 1, {1, 1}, std::nullopt},
+      {"forces", "", "beaker", "lost_share", "0.8-3.8", 0, {0, 0}, 0.0},
+      {"forces", "", "beaker", "lost_share", "1.2", 0, {0, 0}, 0.5},
+      {"sessions", "", "all", "grip_after_mean", "", 4, {3, 5}, 4.5},
+      {"sessions", "", "all", "grip_stopped_mean", "", 4, {3, 5}, 6.0},
+      {"sessions", "", "all", "normal_increase_mean", "", 4, {3, 5}, -8.0},
+      {"sessions", "", "jug", "correlation_increase_change", "", 0.5, {0.25, 0.75}, 0.0},
+      {"sessions", "", "jug", "g1_share", "", 0.5, {}, 0.25},
+  };
+}
+
+TEST(StudyAnswer, CountsEachExperiment) {
+  EXPECT_EQ(
+      answer_sentence(compared_rows()),
+      "2 of 6 of the paper\u2019s numbers lie inside our 95 % intervals: 1 of 2 for forces, 1 of 4 for sessions. The paper\u2019s "
+      "numbers for contacts are not known here, so ours are predictions.");
+  EXPECT_EQ(answer_sentence({}), "None of the paper\u2019s numbers can be compared here.");
+}
+
+TEST(StudyAnswer, APictureAndTheMisses) {
+  const StudySection section = answer_section(compared_rows());
+  ASSERT_EQ(section.rows.size(), 6u) << "without those that nothing is compared with";
+  const std::string page = study_page(page_with(section)), start = "<!DOCTYPE html>\n";
+  expect_well_formed(page.substr(start.size()));
+  const std::string picture = page.substr(page.find("<svg"), page.find("</svg>") - page.find("<svg"));
+  // each kind once more in the key
+  EXPECT_EQ(count_of(picture, "<rect class=\"box\""), 4 + 1);
+  EXPECT_EQ(count_of(picture, "<circle class=\"inside\""), 2 + 1);
+  EXPECT_EQ(count_of(picture, "<path class=\"outside\""), 4 + 2);
+  EXPECT_EQ(count_of(picture, "head\">"), 3) << "experiments and vessels";
+  EXPECT_LT(picture.find("Forces, beaker<"), picture.find("Sessions, all vessels<"));
+  EXPECT_LT(picture.find("Sessions, all vessels<"), picture.find("Sessions, jug<"));
+  EXPECT_TRUE(has(picture, "grip after, mean (N): 4.000 (3.000 to 5.000), the paper 4.500, inside.")) << "for screen readers";
+  // from 6 N to the nearer end, 5 N: 17 % less
+  EXPECT_TRUE(has(page, "<td>6.000</td>\n<td>5.000</td>\n<td>\u22121.000</td>\n<td>\u221217 %</td>"))
+      << page.substr(page.find("<table"));
+  EXPECT_TRUE(has(page, "<td>\u22128.000</td>\n<td>3.000</td>\n<td>+11.000</td>\n<td>+138 %</td>"));
+  EXPECT_TRUE(has(page, "<td>0.000</td>\n<td>0.250</td>\n<td>+0.250</td>\n<td>\u2013</td>")) << "no share of 0";
+  EXPECT_FALSE(has(page, "<td>4.500</td>")) << "it is inside";
+  EXPECT_EQ(count_of(study_page(page_with(answer_section({}))), "<svg"), 0);
 }
 
 TEST(StudySummary, ATableForEachExperiment) {

@@ -6,13 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "base/numbers/random_bits.h"
+#include "base/statistics/moments.h"
 #include "base/text/error.h"
 #include "device/recordings/grasp_collector.h"
 #include "evidence/studies/paper_sample.h"
@@ -155,6 +156,40 @@ TEST(SessionStatistics, SharesAreOfTheGraspsThatTheyAreSaidOf) {
   EXPECT_TRUE(std::isnan(session_value(rows, "second", "lost_share")));
 }
 
+// One person makes seven grasps of the vessel: five have a type, six are tilted, and five of these maintained. The other makes one without a tilt.
+TEST(SessionStatistics, CountThePeopleAndGraspsBehindANumber) {
+  std::vector<SessionSubject> subjects(2);
+  for (const device::GripCourse course : {device::GripCourse::less, device::GripCourse::less, device::GripCourse::complex,
+                                          device::GripCourse::more, device::GripCourse::equal, device::GripCourse::not_analyzed})
+    subjects[0].grasps.push_back(tilted_grasp(1, 1, 0.5, course));
+  subjects[0].grasps[4].after_at_first = device::Tick::NONE;
+  subjects[0].grasps[0].before.mean = subjects[0].grasps[5].before.mean = 3;
+  for (std::size_t person = 0; person < 2; ++person) {
+    subjects[person].grasps.push_back(tilted_grasp(1, 9, 9, device::GripCourse::not_analyzed));
+    subjects[person].grasps.back().largest_tilt = 0;
+    subjects[person].grasps.back().response_time = 0.1;
+  }
+  subjects[1].grasps.push_back(tilted_grasp(0, 1, 1));  // nobody pours from this vessel
+  const auto rows = session_rows(subjects, SESSION_VESSELS, sampling_of(5));
+  const auto has_count = [&](const char* vessel, const char* statistic, std::uint64_t people, std::uint64_t grasps) {
+    const StudyCount& count = session_row(rows, vessel, statistic).count;
+    EXPECT_EQ(count.people, std::optional(people)) << vessel << ' ' << statistic;
+    EXPECT_EQ(count.grasps, std::optional(grasps)) << vessel << ' ' << statistic;
+  };
+  for (const char* vessel : {"all", "first"}) {
+    has_count(vessel, "lost_share", 2, 8);
+    has_count(vessel, "response_time_mean", 2, 2);
+    has_count(vessel, "g4_share", 1, 5);
+  }
+  has_count("all", "maintained_over_8N_share", 1, 5);
+  has_count("all", "correlation_before_change", 1, 1);
+  has_count("all", "anova_f", 1, 5);
+  has_count("first", "analyzed_share", 1, 6);
+  has_count("first", "grip_before_mean", 1, 2);
+  has_count("second", "lost_share", 0, 0);
+  EXPECT_FALSE(session_row(rows, "all", INSIDE_SHARE).count.people);
+}
+
 // The types as the paper describes them, from the ticks on.
 TEST(SessionStatistics, TypesOfWholeSessions) {
   const auto normal = [](double x) { return x; };
@@ -225,7 +260,7 @@ TEST(SessionStatistics, SameBitsForAnyThreads) {
             session_row(one, "first", "normal_increase_mean").interval.low);
 }
 
-// With 41 samples the interval's ends are the second of them and the last but one. So they are shares of 22 grasps.
+// The interval's ends are samples, and so shares of 22 grasps.
 TEST(SessionStatistics, SamplesHaveThePapersSize) {
   std::vector<SessionSubject> subjects(12);
   for (std::size_t k = 0; k < subjects.size(); ++k) {
@@ -306,17 +341,31 @@ TEST(PaperSample, VesselsOfAScene) {
   EXPECT_THROW(session_vessels(scene), Error);
 }
 
-// With replacement five of fifty would be five different ones in two of three draws.
-TEST(PaperSample, ALargePopulationHasNobodyDrawnTwice) {
+// Two known people: in Polya's urn each number of draws of the first, 0 to 4 of 4, is equally likely. 10,000 samples have an error of 0.004.
+TEST(PaperSample, WhoeverIsDrawnGoesBackTwice) {
   std::uint64_t state = 1;
-  bool has_twice = false;
-  for (int k = 0; k < 50; ++k) {
-    const std::vector<std::size_t> large = draw_members(5, 5 * MANY_SAMPLES, state),
-                                   small = draw_members(5, 5 * MANY_SAMPLES - 1, state);
-    EXPECT_EQ(std::set<std::size_t>(large.begin(), large.end()).size(), 5u);
-    has_twice |= std::set<std::size_t>(small.begin(), small.end()).size() < 5;
+  std::array<int, 5> times{};
+  for (int k = 0; k < 10000; ++k) {
+    const std::vector<std::size_t> people = draw_people(4, 2, state);
+    ASSERT_EQ(people.size(), 4u);
+    ++times[static_cast<std::size_t>(std::count(people.begin(), people.end(), 0u))];
   }
-  EXPECT_TRUE(has_twice) << "of a smaller one, with replacement";
+  for (const int one : times) EXPECT_NEAR(one / 1e4, 0.2, 0.02);
+}
+
+// The mean of 17 in repetitions of 40 known people, 0 to 39: what draw_people promises. A variance from 10,000 samples has an error of 1.4 %.
+TEST(PaperSample, RepetitionsHaveTheKnownPeoplesOwnError) {
+  std::uint64_t state = 2;
+  constexpr double KNOWN = 40, COUNT = 17;
+  std::vector<double> means;
+  for (int k = 0; k < 10000; ++k) {
+    double sum = 0;
+    for (const std::size_t one : draw_people(17, 40, state)) sum += static_cast<double>(one);
+    means.push_back(sum / COUNT);
+  }
+  const double variance = KNOWN * (KNOWN + 1) / 12;  // of 0 to 39 as a sample
+  EXPECT_NEAR(std::pow(deviation_of(means), 2) / (variance * (1 / COUNT + 1 / KNOWN) * (KNOWN - 1) / (KNOWN + 1)), 1, 0.06);
+  EXPECT_NEAR(mean_of(means), 19.5, 0.2);
 }
 
 }  // namespace

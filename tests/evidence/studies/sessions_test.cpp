@@ -8,13 +8,16 @@
 #include <bit>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
+#include "base/statistics/distributions.h"
 #include "base/text/error.h"
 #include "core/reader/reader.h"
 #include "core/reader/shipped.h"
 #include "device/loop/gripper.h"
 #include "device/recordings/grasp_collector.h"
+#include "device/recordings/grip_scatter.h"
 #include "device/recordings/session_report.h"
 #include "device/session/session.h"
 #include "evidence/studies/journal.h"
@@ -69,6 +72,38 @@ TEST(Sessions, AreMeasuredAsRecordingsAre) {
   ASSERT_FALSE(first.empty());
   EXPECT_GT(first[0].largest_tilt, device::LEAST_ANALYZED);
   EXPECT_GT(first[0].normal_increase, 0);
+}
+
+// A virtual person's grips scatter as `[people]` says of one person's grasps, and the person's habits are no scatter. The deviations of 39 degrees
+// of freedom lie within 99.9 % of the chi-square distribution.
+TEST(Sessions, GripsScatterAsThePersonsGraspsDo) {
+  Scene scene = one_beaker();
+  scene.task.reset();
+  const Participant person(scene.people, 1, 5, Experiment::sessions);
+  scene.hand = person.hand(scene.hand);
+  const std::vector<device::SimJob> jobs(40, jobs_of(scene).at(0));
+  device::GraspCollector collector(scene.live.rate, scene.force.max);
+  EXPECT_TRUE(run_simulated(
+      {scene, person, 1, jobs, 2000.0},
+      [&](const device::Tick& tick, const device::Session&) {
+        collector.add(tick);
+        return true;
+      },
+      GOES_ON));
+  device::GripScatter scatter;
+  scatter.add(collector.finish());
+  ASSERT_EQ(scatter.freedom(), 39u);
+  const auto found = scatter.deviations();
+  const auto expect_scatter = [&](std::size_t k, Trait trait) {
+    const double expected = scene.people.traits[static_cast<std::size_t>(trait)].grasp, ratio = found[k].value / expected;
+    EXPECT_GT(39 * ratio * ratio, chi_square_quantile(0.0005, 39)) << device::SCATTER_KEYS[k].name;
+    EXPECT_LT(39 * ratio * ratio, chi_square_quantile(0.9995, 39)) << device::SCATTER_KEYS[k].name;
+  };
+  expect_scatter(0, Trait::height);
+  expect_scatter(2, Trait::obliquity);
+  expect_scatter(3, Trait::roll);
+  expect_scatter(4, Trait::azimuth);
+  EXPECT_LT(found[1].value, 0.5e-3) << "virtual people aim at the axis, and their arms tremble by some 0.15 mm";
 }
 
 TEST(Sessions, WithoutScatterEverybodyIsOnePerson) {
@@ -155,7 +190,8 @@ TEST(Sessions, GraspsSurviveAsNumbers) {
   EXPECT_EQ(again[0].after_at_first, grasps[0].after_at_first);
   // a member that to_numbers leaves out would be lost: 16 numbers, 3 durations, 3 means of 3 numbers, and 3 names
   EXPECT_EQ(to_numbers({grasps, 0}).size(), 1 + 31 * grasps.size());
-  EXPECT_EQ(sizeof(device::GraspReport), 16 * 8 + 3 * 8 + 9 * 8 + 8 + 8u) << "with the names, each padded to a number";
+  // with the names, each padded to a number; grip and shown point are of recordings alone
+  EXPECT_EQ(sizeof(device::GraspReport), 16 * 8 + 3 * 8 + 9 * 8 + 8 + 8u + sizeof(std::optional<GripInput>) + 8);
 }
 
 TEST(StudyJournal, GoesOnAndRefusesAnother) {

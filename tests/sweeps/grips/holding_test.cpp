@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "base/files/json.h"
 #include "core/vectors.h"
@@ -85,6 +86,45 @@ TEST(Holding, ForcesOfAStateCarryTheVessel) {
     }
   }
   EXPECT_GT(held, 30);
+}
+
+// A share's range ends where the effort passes 1.2 times the least one.
+TEST(Holding, SharesEndWhereTheirEffortPassesTheRoom) {
+  const Scene scene = few_states();
+  const GripInput grip = beside(0.06, 20);
+  const GripReport report = held_report(scene, 0, grip);
+  const Holding holding(scene, *make_core_evaluator(scene), 0, report.answer.result, report.pour);
+  int inner_ends = 0;
+  for (std::size_t k = 0; k < report.holds.size(); ++k) {
+    const StateHold& hold = report.holds[k];
+    const std::optional<FingerShares> shares = holding.shares(report.answer.states[k], hold);
+    ASSERT_EQ(shares.has_value(), std::isfinite(hold.effort));
+    if (!shares) continue;
+    EXPECT_NEAR(std::accumulate(shares->share.begin(), shares->share.end(), 0.0), 1, 1e-12);
+    const auto contacts = contacts_of(hold);
+    for (int digit = 1; digit < FINGER_COUNT; ++digit) {
+      const std::size_t finger = static_cast<std::size_t>(digit) - 1;
+      const auto effort = [&](double share, bool is_least) {
+        EffortSolver solver(contacts, hold.strength, {});
+        solver.set_share({digit, share, is_least});
+        const core_f64::Effort found = solver.solve(weight_of(scene, report, report.answer.states[k]));
+        return std::array{found.low / hold.effort, found.effort / hold.effort};
+      };
+      EXPECT_LE(shares->least[finger], shares->share[finger]);
+      EXPECT_GE(shares->most[finger], shares->share[finger]);
+      EXPECT_LE(effort(shares->least[finger], false)[1], SHARE_ROOM * (1 + core_f64::EFFORT_TOLERANCE));
+      EXPECT_LE(effort(shares->most[finger], true)[1], SHARE_ROOM * (1 + core_f64::EFFORT_TOLERANCE));
+      // at twice the step beyond the end; the bracket is a thousandth wide
+      if (shares->least[finger] > 2 * SHARE_STEP) {
+        EXPECT_GT(effort(shares->least[finger] - 2 * SHARE_STEP, false)[0], (1 - 2e-3) * SHARE_ROOM);
+      }
+      if (shares->most[finger] < 1 - 2 * SHARE_STEP && shares->most[finger] > 0) {
+        EXPECT_GT(effort(shares->most[finger] + 2 * SHARE_STEP, true)[0], (1 - 2e-3) * SHARE_ROOM);
+        ++inner_ends;
+      }
+    }
+  }
+  EXPECT_GT(inner_ends, 10);
 }
 
 // Two tips on a level line across the axis, the center of mass on it: the hold force of kernel 7, at the weaker of the two.

@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text/error.h"
+#include "core/meshes/lattice.h"
 #include "host/open_backend.h"
 #include "tests/support/environment.h"
 #include "tests/support/mesh_vessel.h"
@@ -39,16 +41,46 @@ TEST_F(MeshVessel, WhatIsLongIsLessForAnOpenMesh) {
   EXPECT_TRUE(is_long(10.1, true));
   EXPECT_FALSE(is_long(3, false));
   EXPECT_TRUE(is_long(3.1, false));
-  PreparedLattice lattice;
-  lattice.spacing = 1e-3;
-  lattice.nx = 100;
-  lattice.ny = 200;
-  lattice.nz = 300;
-  EXPECT_EQ(forecast_text(lattice, 53.2, false),
+  LatticePlan plan;
+  plan.lattice.spacing = 1e-3;
+  plan.lattice.nx = 100;
+  plan.lattice.ny = 200;
+  plan.lattice.nz = 300;
+  plan.seconds = 53.2;
+  EXPECT_EQ(forecast_text(plan, false),
             "its lattice of 1 mm has 6,000,000 samples, which take about 54 s, as the mesh is open; a closed one, or a larger "
             "grid_mm, takes less");
-  EXPECT_EQ(forecast_text(lattice, 503, true),
+  plan.seconds = 503;
+  EXPECT_EQ(forecast_text(plan, true),
             "its lattice of 1 mm has 6,000,000 samples, which take about 8 min 23 s; a larger grid_mm takes less");
+  plan.finer = plan.lattice;
+  plan.finer_seconds = 503;
+  plan.lattice.spacing = 2.11111e-3;
+  plan.seconds = 53.2;
+  EXPECT_EQ(forecast_text(plan, true),
+            "its lattice of 1 mm has 6,000,000 samples, which take about 8 min 23 s; one of 2.111 mm, which takes about 54 s, is "
+            "taken instead: grid_mm = 1 asks for the finer one");
+}
+
+// A lattice that is not asked for takes a minute at most, and a result that says its spacing gives the same one at leisure.
+TEST_F(MeshVessel, OverAMinuteACoarserLatticeIsTaken) {
+  // edges that cross the lattice's rows: they need a fine one
+  const VesselData box = of_file("box", placed_mesh(box_mesh({-0.03, 0, -0.03}, {0.03, 0.06, 0.03}), {0.3, 0.2, 0.1}, {}), 0);
+  seconds_a_look_ = 1000;
+  const Scene quick = loaded({box});
+  EXPECT_NE(said_.find("is taken instead: grid_mm = "), std::string::npos) << said_;
+  const MeshBody& body = *quick.vessels[0].mesh->body;
+  const PreparedLattice& taken = body.lattice;
+  const Triple size = body.facts.size();
+  EXPECT_DOUBLE_EQ(taken.spacing, *std::max_element(size.begin(), size.end()) / 24) << "the coarsest, by this clock";
+  Scene again = quick;
+  again.vessels[0].mesh->body.reset();
+  EXPECT_EQ(reload_meshes(again, (folder_ / "result.nc").string(), mesh_keys(quick), mesh_lattices(quick), true), "");
+  EXPECT_EQ(*again.vessels[0].mesh->body->lattice.words, *taken.words);
+  seconds_a_look_ = 1e-9;
+  VesselData asked = box;
+  asked.mesh->lattice_spacing = 1e-3;
+  EXPECT_EQ(loaded({asked}).vessels[0].mesh->body->lattice.spacing, 1e-3);
 }
 
 TEST_F(MeshVessel, ATinyMeshIsWarnedOfAndGetsASmallLattice) {
@@ -70,7 +102,11 @@ TEST_F(MeshVessel, HolesAreClosedWhereTheSceneSaysSo) {
   EXPECT_NE(said_.find("1 hole was closed, up to "), std::string::npos) << said_;
   VesselData bowl = of_file("bowl", open_hemisphere(0.03, 3), 5e-3);
   bowl.mesh->close_holes = true;
-  EXPECT_NE(refusal(bowl).find("scene.toml:3:8: bowl.glb: close_holes: a hole is "), std::string::npos) << refusal(bowl);
+  loaded({bowl});
+  EXPECT_NE(said_.find("1 hole was closed, up to 84.85 mm across."), std::string::npos) << said_;
+  bowl = of_file("bowl", wavy_bowl(0.03, 3, 0.01), 5e-3);
+  bowl.mesh->close_holes = true;
+  EXPECT_NE(refusal(bowl).find("scene.toml:3:8: bowl.glb: close_holes: 1 of 1 hole is "), std::string::npos) << refusal(bowl);
 }
 
 TEST_F(MeshVessel, WithoutAnInnerOutlineItIsSolidAndDry) {
