@@ -35,8 +35,15 @@ constexpr const char* REPLAY = "replay:";
 constexpr const char* RECORD = "--record";
 
 device::GripperLimits limits_of(const device::RecordedDevice& device, const std::string& address) {
-  return {"recording of " + device.name, address, device.force, device.grip, device.gap, device.rate, device.has_rotation,
-          device.is_left_handed};
+  return {"recording of " + device.name,
+          address,
+          device.force,
+          device.grip,
+          device.gap,
+          device.rate,
+          device.has_rotation,
+          device.is_left_handed,
+          device.pushes_each_tip};
 }
 
 bool has_places(const Scene& scene) {

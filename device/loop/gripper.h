@@ -2,6 +2,7 @@
 // The interface of a two-finger haptic gripper.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -19,9 +20,12 @@ namespace wholehand::device {
 
 // Whether every number in it is finite.
 inline bool is_finite(const GripperForce& force) {
-  return std::isfinite(force.arm[0]) && std::isfinite(force.arm[1]) && std::isfinite(force.arm[2]) && std::isfinite(force.grip);
+  // by component: std::hypot of three loses a NaN beside zeros in libstdc++ 12
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  return std::all_of(force.arm.begin(), force.arm.end(), is_number) && std::isfinite(force.grip) &&
+         std::all_of(force.across.begin(), force.across.end(), is_number);
 }
-inline bool is_none(const GripperForce& force) { return force.arm == Triple{} && force.grip == 0; }
+inline bool is_none(const GripperForce& force) { return force.arm == Triple{} && force.grip == 0 && force.across == Triple{}; }
 
 // What an open gripper is and can do. Forces are the largest that may ever be written to it.
 struct GripperLimits {
@@ -33,6 +37,7 @@ struct GripperLimits {
   double rate = 0;              // measurements a second at most, Hz
   bool has_rotation = true;     // false: GripperState::rotation stays NO_ROTATION
   bool is_left_handed = false;
+  bool pushes_each_tip = false;  // it renders GripperForce::across
   double watchdog = 0;  // the device drops its force by itself if it hears nothing for so long, s; 0: never; or UNKNOWN_WATCHDOG
 };
 
@@ -86,7 +91,7 @@ class Gripper {
   // device.
   void set_last_written_force(const GripperForce& force) noexcept {
     written_arm_.store(norm(force.arm), std::memory_order_relaxed);
-    written_grip_.store(std::abs(force.grip), std::memory_order_relaxed);
+    written_grip_.store(std::hypot(force.grip, norm(force.across)), std::memory_order_relaxed);
   }
   ForceSize last_written_force() const noexcept {
     return {written_arm_.load(std::memory_order_relaxed), written_grip_.load(std::memory_order_relaxed)};

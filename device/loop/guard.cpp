@@ -17,8 +17,29 @@ double turned_by(const Rotation& a, const Rotation& b) noexcept {
   return std::sqrt(0.5 * squares);
 }
 
+namespace {
+
+// `wanted` cut to a length of `limit`, times the ramp, and no further than `most` from the force before.
+void approach(Triple& written, const Triple& wanted, double limit, double ramp, double most) noexcept {
+  const double size = norm(wanted);
+  const double factor = ramp * (size > limit ? limit / size : 1);
+  Triple change{};
+  for (int k = 0; k < 3; ++k) change[k] = factor * wanted[k] - written[k];
+  const double changed = norm(change);
+  const double part = changed > most ? most / changed : 1;
+  for (int k = 0; k < 3; ++k) written[k] += part * change[k];
+}
+
+}  // namespace
+
 Guard::Guard(const LiveData& live, const GripperLimits& limits)
-    : force_(limits.force), grip_(limits.grip), period_(1 / live.rate), ramp_(live.ramp), slew_(live.slew), jump_(live.jump) {}
+    : force_(limits.force),
+      grip_(limits.grip),
+      across_(limits.pushes_each_tip ? limits.grip : 0),
+      period_(1 / live.rate),
+      ramp_(live.ramp),
+      slew_(live.slew),
+      jump_(live.jump) {}
 
 Fault Guard::check(ReadOutcome read, const GripperState& state, std::int64_t number) noexcept {
   if (read == ReadOutcome::error) return Fault::read_error;
@@ -64,17 +85,9 @@ GripperForce Guard::limit(const GripperForce& wanted, std::int64_t number) noexc
   const double seconds = period_ * static_cast<double>(is_first ? 1 : std::max<std::int64_t>(1, number - limited_));
   limited_ = number;
   const double most = slew_ * seconds;
-  const double size = norm(wanted.arm);
-  if (!std::isfinite(size) || !std::isfinite(wanted.grip)) {
-    written_ = {};
-    return written_;
-  }
-  const double factor = ramp * (size > force_ ? force_ / size : 1);
-  Triple change{};
-  for (int k = 0; k < 3; ++k) change[k] = factor * wanted.arm[k] - written_.arm[k];
-  const double changed = norm(change);
-  const double part = changed > most ? most / changed : 1;
-  for (int k = 0; k < 3; ++k) written_.arm[k] += part * change[k];
+  if (!is_finite(wanted)) return written_ = {};
+  approach(written_.arm, wanted.arm, force_, ramp, most);
+  approach(written_.across, wanted.across, across_, ramp, most);
   const double grip = ramp * std::clamp(wanted.grip, -grip_, grip_);
   written_.grip += std::clamp(grip - written_.grip, -most, most);
   return written_;

@@ -24,16 +24,16 @@ class Guard {
   // What jumped, how fast, and what is allowed, for the fault `jump`.
   std::string jump() const;
 
-  // The force to write: `wanted` clamped to the device's limits (the arm keeps its direction), times the ramp from zero over the first ramp_s of
-  // ticks, and no further from the previous force than slew_N_s allows, arm and grip each. A force that is not finite counts as zero. After missed
-  // ticks of STALL or longer, in which a device's own watchdog may have acted, the first force is zero, whatever the ramp, and the ramp restarts.
+  // The force to write: `wanted` clamped to the device's limits (the arm keeps its direction, and so does what is across, limited as the grip; a device
+  // that cannot push each tip gets none of it), times the ramp from zero over the first ramp_s of ticks, and no further from the previous force than
+  // slew_N_s allows, each of the three. A force that is not finite counts as zero. After missed ticks of STALL or longer, in which a device's own watchdog may have acted, the first force is zero, whatever the ramp, and the ramp restarts.
   GripperForce limit(const GripperForce& wanted, std::int64_t number) noexcept;
 
   // The smallest number of periods that counts as a stall.
   std::int64_t stall_periods() const noexcept;
 
  private:
-  double force_, grip_;                                    // N
+  double force_, grip_, across_;                           // N
   double period_, ramp_;                                   // s
   double slew_, jump_;                                     // N/s, m/s
   bool has_state_ = false;                                 // a measurement came before

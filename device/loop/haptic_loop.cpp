@@ -119,8 +119,7 @@ bool HapticLoop::step(std::int64_t number, double due) noexcept {
   session_.step(state_, number, tick);
   tick.read = outcome;
   tick.device = state_;
-  const double size = norm(tick.wanted.arm) + std::abs(tick.wanted.grip);
-  if (!std::isfinite(size)) {
+  if (!is_finite(tick.wanted)) {
     release(Fault::not_finite, tick);
     return false;
   }

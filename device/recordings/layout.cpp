@@ -81,6 +81,7 @@ class LayoutBuilder {
         classic::number_attribute("device_rate_Hz", {device.rate}),
         classic::integer_attribute("device_has_rotation", {device.has_rotation}),
         classic::integer_attribute("device_is_left_handed", {device.is_left_handed}),
+        classic::integer_attribute("device_pushes_each_tip", {device.pushes_each_tip}),
         classic::number_attribute("force_base_N", {info_.force_base}),
         classic::number_attribute("force_max_N", {info_.force_max}),
         classic::number_attribute("tolerance_m3", {info_.tolerance})};
@@ -341,7 +342,8 @@ RecordingInfo recording_info(const Header& header, const FixedValues& fixed_valu
                  {gap[0], gap[1]},
                  recorded_number(header, "device_rate_Hz"),
                  recorded_yes(header, "device_has_rotation"),
-                 recorded_yes(header, "device_is_left_handed")};
+                 recorded_yes(header, "device_is_left_handed"),
+                 recorded_yes(header, "device_pushes_each_tip")};
   if (!(info.device.force >= 0 && info.device.grip >= 0 && gap[0] <= gap[1]))
     throw usage_error("has a device with impossible forces or an impossible gap");
   info.force_base = recorded_number(header, "force_base_N");

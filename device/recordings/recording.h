@@ -38,6 +38,7 @@ struct RecordedDevice {
   double rate = 0;              // Hz
   bool has_rotation = true;
   bool is_left_handed = false;
+  bool pushes_each_tip = false;
 };
 
 // What is known when a recording starts.

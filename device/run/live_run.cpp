@@ -48,8 +48,8 @@ RecordingInfo recording_info(const Scene& scene, const GripperLimits& gripper, c
   info.person = options.person;
   info.rate = scene.live.rate;
   info.has_clock = options.has_clock;
-  info.device = {gripper.name, gripper.address, gripper.force,        gripper.grip,
-                 gripper.gap,  gripper.rate,    gripper.has_rotation, gripper.is_left_handed};
+  info.device = {gripper.name, gripper.address,      gripper.force,          gripper.grip,           gripper.gap,
+                 gripper.rate, gripper.has_rotation, gripper.is_left_handed, gripper.pushes_each_tip};
   for (const VesselData& vessel : scene.vessels) {
     info.vessels.push_back({vessel.name, vessel.liquid_name, vessel.force_range.value_or(scene.force.range)});
   }

@@ -135,7 +135,9 @@ void Session::approach(const HandPose& pose, Tick& tick) noexcept {
   }
   tick.wanted.arm = workspace_.to_device(forces[0] + forces[1]);
   // what moves both tips apart by one meter of gap moves each by half of it
-  tick.wanted.grip = 0.5 * glm::dot(forces[1] - forces[0], pose.rotation[0]);
+  const Vec3 apart = 0.5 * (forces[1] - forces[0]);
+  tick.wanted.grip = glm::dot(apart, pose.rotation[0]);
+  tick.wanted.across = workspace_.across_to_device(apart - tick.wanted.grip * pose.rotation[0]);
   tick.feedback = tick.wanted.grip;
   tick.user_force = tick.feedback;
 }
@@ -239,6 +241,7 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   state_ = turning(tick.tilt);
   note_delivery(vessel.place);
   fill_held(vessel, load.mass, held, tick);
+  tick.wanted.across = workspace_.across_to_device(weight_across(vessel, held.center, pose.rotation[0], tick.weight));
   // an open hand lets go in this very tick: nothing of the vessel is felt any more
   if (is_open(device_gap)) leave(vessel);
   if (is_returning(state_)) {
@@ -307,6 +310,14 @@ void Session::fill_held(const Stance& vessel, double mass, const core_f64::HeldF
   tick.guidance_distance = grasp_.guidance_distance;
   for (int k = 0; k < 2; ++k) tick.proxies[k] = live_->mirror.out(vessel.outward(grasp_.proxies[k]));
   fill_vessel(vessel, tick);
+}
+
+// Half the difference of what the two contacts carry across the line of the tips: it balances the weight's torque about their middle, apart from the
+// part along the line, which torsion carries.
+Vec3 Session::weight_across(const Stance& vessel, Vec3 center, Vec3 line, double weight) const noexcept {
+  const Vec3 thumb = vessel.outward(grasp_.proxies[0]), index = vessel.outward(grasp_.proxies[1]);
+  const Vec3 torque = glm::cross(vessel.outward(center) - 0.5 * (thumb + index), Vec3(0, -weight, 0));
+  return glm::cross(torque, line) / glm::length(index - thumb);
 }
 
 bool Session::is_open(double device_gap) const noexcept {

@@ -28,10 +28,12 @@ struct GripperState {
   double time = 0;                 // of the measurement by the device's own clock, s; 0 if it has none
 };
 
-// What is written to a gripper, device frame.
+// What is written to a gripper, device frame. With d its closing line (its own +x), the tip at +x is pushed by arm / 2 + grip d + across, the other
+// one by arm / 2 - grip d - across.
 struct GripperForce {
-  Triple arm{};     // N
+  Triple arm{};     // sum of both tips' forces, N
   double grip = 0;  // on each finger, N; positive opens
+  Triple across{};  // across d, N; zero where the device cannot push each tip by itself
 };
 
 // free: nothing is touched. touching: a tracked tip is on a vessel. Held states are lift (upright since the grasp or again, within 5 degrees), tilt

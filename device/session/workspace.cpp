@@ -16,6 +16,7 @@ Workspace::Workspace(const Scene& scene, std::array<double, 2> device_gap, std::
     : origin_(to_vec3(scene.device.origin)),
       scale_(scene.device.workspace_scale),
       mirror_(scene.hand.handedness),
+      side_(scene.hand.handedness == Handedness::left ? -1 : 1),
       clutch_(scene.device.clutch_button),
       device_gap_(scene.device.has_gap ? scene.device.gap : device_gap),
       hand_gap_(hand_gap) {

@@ -30,6 +30,8 @@ class Workspace {
   bool is_clutched() const noexcept { return is_clutched_; }
   // Maps a force of that world back to the device: only the axes change.
   Triple to_device(core_f64::Vec3 force) const noexcept;
+  // For GripperForce::across, from half the index finger's force less the thumb's: a left hand has its thumb at the gripper's +x.
+  Triple across_to_device(core_f64::Vec3 apart) const noexcept { return to_device(side_ * apart); }
   core_f64::Vec3 to_world(const Triple& force) const noexcept;
   // Between that world and the scene's own.
   const Mirror& mirror() const noexcept { return mirror_; }
@@ -42,6 +44,7 @@ class Workspace {
   core_f64::Vec3 origin_{};
   double scale_ = 1;
   Mirror mirror_;
+  double side_ = 1;  // -1: a left hand
   int clutch_ = -1;
   std::array<double, 2> device_gap_{}, hand_gap_{};
   double slope_ = 1;

@@ -195,6 +195,23 @@ TEST(Guard, ClampsToTheDevicesLimitsAndKeepsTheArmsDirection) {
   }
 }
 
+// Limited as the grip, in its direction; without tips of their own no device gets any.
+TEST(Guard, LimitsWhatIsAcrossTheClosingLine) {
+  LiveData live;
+  live.ramp = 0;
+  live.slew = 1e9;
+  GripperLimits limits = limits_of(12, 2);
+  const GripperForce wanted{{0, -4, 0}, 1, {0, 3, 4}};
+  EXPECT_EQ(Guard(live, limits).limit(wanted, 0).across, Triple{});
+  limits.pushes_each_tip = true;
+  const GripperForce force = Guard(live, limits).limit(wanted, 0);
+  EXPECT_NEAR(force.across[1], 3 * 2 / 5.0, ROUNDING);
+  EXPECT_NEAR(force.across[2], 4 * 2 / 5.0, ROUNDING);
+  live.slew = 1000;  // 1 N a tick
+  EXPECT_NEAR(norm(Guard(live, limits).limit(wanted, 0).across), 1, ROUNDING);
+  EXPECT_TRUE(is_none(Guard(live, limits).limit({{}, 0, {0, std::nan(""), 0}}, 0)));
+}
+
 // Whatever is wished: never over the limits, never over the ramp, never further from the force before than the slew, ticks skipped
 // or not.
 TEST(Guard, HoldsEveryLimitAgainstWildWishes) {
@@ -273,11 +290,12 @@ TEST(Guard, AForceThatIsNoNumberIsNone) {
   LiveData live;
   live.ramp = 0;
   for (const double bad : {NOT_A_NUMBER, INFINITE, -INFINITE}) {
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 8; ++k) {
       Guard guard(live, limits_of(5, 2));
       guard.limit({{1, 1, 1}, 1}, 0);
       GripperForce wanted{{1, 1, 1}, 1};
-      (k < 3 ? wanted.arm[k] : wanted.grip) = bad;
+      if (k >= 4) wanted = {};  // hypot of three numbers may lose a NaN beside zeros
+      (k % 4 < 3 ? wanted.arm[k % 4] : wanted.grip) = bad;
       const GripperForce force = guard.limit(wanted, 1);
       EXPECT_EQ(norm(force.arm), 0);
       EXPECT_EQ(force.grip, 0);

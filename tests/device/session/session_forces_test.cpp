@@ -198,6 +198,72 @@ void sweeps_grip(const Scene& scene, const Tick& tick, GripInput& grip, GripResu
   result.antipodal = std::max(thumb, index) <= std::atan(scene.force.friction);
 }
 
+// The force on the tip at the gripper's +x (`side` 1) or on the other one, device frame, which is that
+// of the scene here.
+Vec3 tip_force(const Tick& tick, double side) {
+  const Vec3 line = to_mat3(tick.hand_rotation)[0];
+  return 0.5 * to_vec3(tick.wanted.arm) + side * (tick.wanted.grip * line + to_vec3(tick.wanted.across));
+}
+
+// Before the grasp each tip feels its own coupling. The thumb is at the gripper's -x on a right hand, at its +x on a left one.
+TEST(Session, EachTipFeelsItsOwnCoupling) {
+  Scene right = scene_of({beaker1()});
+  right.force.friction = 0;
+  Scene left = right;
+  left.hand.handedness = Handedness::left;
+  const double gap = 0.1;
+  // the thumb comes from the right, beside the axis, so that no normal runs along the closing line
+  const auto at = [gap](std::int64_t n) {
+    return gripper_at(Vec3(0.050 - 2e-5 * static_cast<double>(n) + gap / 2, 0.05, 0.012), gap);
+  };
+  const auto mirrored_at = [&](std::int64_t n) {
+    GripperState state = at(n);
+    state.position = mirrored(state.position, Handedness::left);
+    return state;
+  };
+  const auto check = [](const std::vector<Tick>& ticks, double index) {
+    int across = 0;
+    for (const Tick& tick : ticks) {
+      // rounding of sums of forces under 10 N
+      EXPECT_LT(glm::length(tip_force(tick, index) - to_vec3(tick.coupling[1])), 1e-13);
+      EXPECT_LT(glm::length(tip_force(tick, -index) - to_vec3(tick.coupling[0])), 1e-13);
+      across += norm(tick.wanted.across) > 0.1;
+    }
+    EXPECT_GT(across, 50);
+  };
+  check(play_session(right, at, 300), 1);
+  check(play_session(left, mirrored_at, 300), -1);
+}
+
+// In the hand the two tips' forces are the weight's reaction: their sum is the weight, and they balance its torque about the middle of the contacts
+// but for its part along the closing line.
+TEST(Session, TheTwoTipsCarryTheWeightAndItsTorque) {
+  Scene scene = scene_of({lopsided()});
+  scene.force.base = 5;
+  LiveScript script = script_for(scene);
+  script.azimuth = 0.4;
+  const Vec3 center = to_vec3(scene.vessels[0].center_of_mass);
+  int held = 0, turned = 0;
+  for (const Tick& tick : play_session(
+           scene, [&](std::int64_t n) { return script.at(n); }, 7000)) {
+    if (!is_held(tick.state) || tick.weight == 0) continue;
+    ++held;
+    const Vec3 line = to_mat3(tick.hand_rotation)[0];
+    const Vec3 index = tip_force(tick, 1), thumb = tip_force(tick, -1);
+    EXPECT_LT(glm::length(index + thumb - Vec3(0, -tick.weight, 0)), 1e-12);
+    EXPECT_NEAR(glm::dot(index - thumb, line), 2 * tick.feedback, 1e-12);
+    const Vec3 at_thumb = to_vec3(tick.proxies[0]), at_index = to_vec3(tick.proxies[1]), middle = 0.5 * (at_thumb + at_index);
+    const Vec3 at = to_vec3(tick.vessel_place) + to_mat3(tick.vessel_rotation) * center;
+    const Vec3 wanted = glm::cross(at - middle, Vec3(0, -tick.weight, 0));
+    const Vec3 apart = glm::length(at_index - at_thumb) * line;
+    const Vec3 carried = 0.5 * glm::cross(apart, index - thumb);
+    EXPECT_LT(glm::length(wanted - glm::dot(wanted, line) * line - carried), 1e-12);
+    turned += glm::length(carried) > 1e-3;
+  }
+  EXPECT_GT(held, 1000);
+  EXPECT_GT(turned, 100);
+}
+
 // What a sweep says of the same grip, liquid and tilt.
 TEST(Session, FeelsExactlyWhatTheSweepSays) {
   int compared = 0;

@@ -145,6 +145,8 @@ TEST(Session, ALeftHandIsMirrored) {
       // 1e-12: the same to rounding
       EXPECT_LT(glm::length(to_vec3(a[k].wanted.arm) - to_vec3(mirrored_x(b[k].wanted.arm))), 1e-12);
       EXPECT_NEAR(a[k].wanted.grip, b[k].wanted.grip, 1e-12);
+      // half of index less thumb in a mirror, of the tip at +x less the other one in the device: the thumb of a left hand
+      EXPECT_LT(glm::length(to_vec3(a[k].wanted.across) + to_vec3(mirrored_x(b[k].wanted.across))), 1e-12);
       EXPECT_LT(glm::length(to_vec3(a[k].tips[1]) - to_vec3(mirrored_x(b[k].tips[1]))), 1e-12);
       EXPECT_LT(glm::length(to_vec3(a[k].proxies[0]) - to_vec3(mirrored_x(b[k].proxies[0]))), 1e-12);
       EXPECT_LT(glm::length(to_vec3(a[k].vessel_place) - to_vec3(mirrored_x(b[k].vessel_place))), 1e-12);
