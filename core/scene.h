@@ -29,6 +29,7 @@ enum class Pour { away, towards };
 enum class Torque { paper, exact };
 enum class TorqueReference { per_object, per_grip };
 enum class Sampling { grid, sobol };
+enum class SlideBy { tips, hand };
 
 constexpr int FINGER_COUNT = 5;  // thumb, index, middle, ring, little
 constexpr int JOINT_COUNT = 24;  // thumb 0..3, then five each: 4..8, 9..13, 14..18, 19..23
@@ -257,6 +258,8 @@ struct RobustData {
 struct LiveData {
   double rate = 1000, stiffness = 800, damping = 1, slip = 8e-3, ramp = 0.5, slew = 2000, jump = 5;
   int late_steps = 3;
+  bool slide = false;                // a held vessel slides where the grip is too weak
+  SlideBy slide_by = SlideBy::tips;  // whose hold force counts there
 };
 
 struct DeviceData {

@@ -96,6 +96,15 @@ void write_forces(Writer& out, const ViewFrame& frame) {
   out.text("}");
 }
 
+// A margin of minus infinity, where nothing holds, is null there.
+void write_slip(Writer& out, const ViewFrame::Slip& slip) {
+  out.number(",\"slip\":{\"margin\":", slip.margin);
+  out.number(",\"distance\":", slip.distance);
+  out.number(",\"angle\":", slip.angle);
+  out.number(",\"speed\":", slip.speed);
+  out.text("}");
+}
+
 void write_presses(Writer& out, const std::vector<device::HandPress>& presses) {
   bool is_first = true;
   for (const device::HandPress& press : presses) {
@@ -187,6 +196,7 @@ std::string frame_json(const ViewFrame& frame) {
     out.text("null");
   }
   write_forces(out, frame);
+  if (frame.slip) write_slip(out, *frame.slip);
   if (frame.hand.hold) write_holding(out, *frame.hand.hold);
   if (frame.advice) write_advice(out, *frame.advice);
   out.text(",\"amounts\":[");
@@ -239,6 +249,8 @@ ViewFrame FrameMaker::make(const device::Tick& tick, const device::VesselPoses& 
   frame.user = tick.user_force;
   frame.hold = hand.hold ? hand.hold->force() : tick.hold_force;
   frame.weight = tick.weight;
+  if (!std::isnan(tick.safety_margin))
+    frame.slip = ViewFrame::Slip{tick.safety_margin, tick.slip_distance, tick.slip_angle, tick.slip_speed};
   frame.torque = tick.torque;
   for (const device::MixedAmount& amount : device::mixing_board(scene, tick)) frame.arrived.push_back(amount.arrived);
   frame.spilled = device::total_spilled(scene, tick);

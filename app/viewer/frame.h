@@ -60,6 +60,11 @@ struct ViewFrame {
   // has it, else two tips'. JSON has null for infinite or absent values, and marks an infinite hold force.
   double feedback = 0, written = device::Tick::NONE, base = 0, normal = 0, opening = 0, user = 0, hold = device::Tick::NONE,
          weight = 0, torque = 0;
+  // Sliding: absent where it is off or nothing is held. N, m, rad.
+  struct Slip {
+    double margin = 0, distance = 0, angle = 0, speed = 0;
+  };
+  std::optional<Slip> slip;
   std::vector<double> arrived;  // of each amount that the task wants, m3
   double spilled = 0, target_volume = 0;
   std::optional<FrameAdvice> advice;  // absent: advice is off, or no vessel is near

@@ -115,6 +115,7 @@ std::string view_scene_json(const Scene& scene, const ViewFacts& facts) {
   json["force"] = {
       {"base", scene.force.base}, {"max", scene.force.max}, {"most", facts.most_force > 0 ? facts.most_force : scene.force.max}};
   if (scene.strength) json["strength"] = scene.strength->digits;
+  if (scene.live.slide && facts.mode != ViewMode::grips) json["slides"] = true;
   json["states"] = device::SESSION_STATE_NAMES;
   if (facts.mode == ViewMode::recording) json["duration"] = facts.duration;
   if (facts.mode != ViewMode::grips) json["rate"] = facts.rate;

@@ -67,7 +67,7 @@ void read_robust(const SceneTable& root, std::optional<RobustData>& robust);
 void read_people(const SceneTable& root, PeopleData& people);
 
 // ---- session.cpp ----
-void read_live(const SceneTable& root, LiveData& live);
+void read_live(const SceneTable& root, bool has_efforts, LiveData& live);
 void read_device(const SceneTable& root, DeviceData& device);
 void read_task(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TaskData>& task);
 

@@ -65,7 +65,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   read_arm(root, scene.hand.handedness, scene.arm);
   read_robust(root, scene.robust);
   read_people(root, scene.people);
-  read_live(root, scene.live);
+  read_live(root, scene.strength.has_value(), scene.live);
   read_device(root, scene.device);
   read_task(root, scene.vessels, scene.task);
 }

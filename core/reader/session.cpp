@@ -42,8 +42,9 @@ void read_axes(const SceneTable& device, std::array<std::string, 3>& axes) {
 
 }  // namespace
 
-void read_live(const SceneTable& root, LiveData& live) {
-  const auto table = root.table("live", {"rate_Hz", "K_N_m", "B_Ns_m", "slip_mm", "ramp_s", "slew_N_s", "jump_m_s", "late_steps"});
+void read_live(const SceneTable& root, bool has_efforts, LiveData& live) {
+  const auto table = root.table(
+      "live", {"rate_Hz", "K_N_m", "B_Ns_m", "slip_mm", "ramp_s", "slew_N_s", "jump_m_s", "late_steps", "slide", "slide_by"});
   if (!table) return;
   table->read("rate_Hz", ranges::RATE, live.rate);
   table->read("K_N_m", ranges::COUPLING_STIFFNESS, live.stiffness);
@@ -55,6 +56,11 @@ void read_live(const SceneTable& root, LiveData& live) {
   std::int64_t late_steps = live.late_steps;
   table->read("late_steps", ranges::LATE_STEPS, late_steps);
   live.late_steps = static_cast<int>(late_steps);
+  table->read_flag("slide", live.slide);
+  table->read("slide_by", {{"tips", SlideBy::tips}, {"hand", SlideBy::hand}}, live.slide_by);
+  if (live.slide_by == SlideBy::hand && !has_efforts)
+    root.file().refuse(table->place("slide_by"), "slide_by = \"hand\" beside [strength] efforts = false",
+                       "allowed: slide_by = \"tips\", or efforts");
 }
 
 void read_device(const SceneTable& root, DeviceData& device) {

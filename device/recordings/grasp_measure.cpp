@@ -208,6 +208,23 @@ std::optional<GripInput> grip_in(const Tick& tick) {
   return is_finite ? grip : std::nullopt;
 }
 
+SlipReport slip_in(std::span<const Tick> held, double rate) {
+  SlipReport slip;
+  if (std::isnan(held.front().safety_margin)) return slip;
+  slip.slips = slip.distance = 0;
+  std::int64_t below = 0;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const Tick& tick = held[k];
+    if (tick.slip_speed > 0 && (k == 0 || !(held[k - 1].slip_speed > 0))) ++slip.slips;
+    if (tick.safety_margin < 0) below += periods_of(held, k);
+    if (!(tick.safety_margin >= slip.least_margin)) slip.least_margin = tick.safety_margin;
+    slip.distance = std::max(slip.distance, tick.slip_distance);
+    slip.turned = tick.slip_angle;
+  }
+  slip.below_hold = static_cast<double>(below) / rate;
+  return slip;
+}
+
 }  // namespace
 
 GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost) {
@@ -224,6 +241,7 @@ GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost)
     if (!grasp.grip) grasp.grip = grip_in(held[k]);
   }
   for (std::size_t k = 0; k < periods.size(); ++k) grasp.duration[k] = static_cast<double>(periods[k]) / rate;
+  grasp.slip = slip_in(held, rate);
   const TiltWay way = tilt_way(held, grasp.largest_tilt);
   // a gap that comes to rest only during the tilt is no response to F_base
   const auto before_tilt = way.is_there ? held.first(way.first) : held;

@@ -46,6 +46,17 @@ extern const std::array<const char*, GRIP_COURSES> GRIP_COURSE_NAMES;  // "", "G
 enum class GraspOutcome : std::uint8_t { let_go, lost, released, recording_ends };
 extern const std::array<const char*, 4> GRASP_OUTCOME_NAMES;
 
+// How the vessel slid in the fingers; all NaN where sliding is off.
+struct SlipReport {
+  double slips = Tick::NONE;         // times that it began to slide
+  double distance = Tick::NONE;      // of the contacts along the surface, m
+  double turned = Tick::NONE;        // in the fingers, with its sign, rad
+  double below_hold = Tick::NONE;    // time with less grip than holding takes, s
+  double least_margin = Tick::NONE;  // of the grip force over what holding takes, N; minus infinity where nothing holds
+
+  bool is_measured() const { return slips >= 0; }
+};
+
 // NaN: there is none. `grip` is computed as if the hand were a right one: azimuth, roll and offset of a left hand are mirrored, which does not change
 // their deviations.
 struct GraspReport {
@@ -68,8 +79,9 @@ struct GraspReport {
   double guidance_distance = Tick::NONE;  // m
   int guidance = -1;                      // number of the guidance point that was shown; -1: none
   std::optional<GripInput> grip;          // absent: a number is not finite, or the line of the tips runs along the axis
-  double poured = 0;                      // over the lip during the grasp, m3
-  double arrived = 0, spilled = 0;        // until the vessel's next grasp, m3
+  SlipReport slip;
+  double poured = 0;                // over the lip during the grasp, m3
+  double arrived = 0, spilled = 0;  // until the vessel's next grasp, m3
 };
 
 // The results that the ticks of one grasp (held, of one vessel, at least one) give by themselves: all but outcome, arrived and spilled. `rate` in Hz.

@@ -30,6 +30,15 @@ SessionJson course_json(GripCourse course) {
                                             : SessionJson(GRIP_COURSE_NAMES[static_cast<std::size_t>(course)]);
 }
 
+SessionJson slip_json(const SlipReport& slip) {
+  if (!slip.is_measured()) return nullptr;
+  return {{"slips", static_cast<int>(slip.slips)},
+          {"distance_m", slip.distance},
+          {"turned_rad", slip.turned},
+          {"below_hold_s", slip.below_hold},
+          {"least_margin_N", number_or_null(slip.least_margin)}};
+}
+
 SessionJson grasp_json(const SessionReport& report, const GraspReport& grasp) {
   SessionJson json;
   json["vessel"] = report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name;
@@ -48,6 +57,7 @@ SessionJson grasp_json(const SessionReport& report, const GraspReport& grasp) {
   json["grip_change_N"] = number_or_null(grasp.grip_change);
   json["turning_back_N"] = number_or_null(grasp.turning_back);
   json["saturated_s"] = grasp.saturated;
+  json["slip"] = slip_json(grasp.slip);
   json["type"] = course_json(grasp.course);
   json["outcome"] = GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)];
   json["guidance_distance_m"] = number_or_null(grasp.guidance_distance);

@@ -92,6 +92,13 @@ void write_grasps(std::string& out, const SessionReport& report) {
                      report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, fixed_text(grasp.start, 3),
                      fixed_text(grasp.saturated, 3));
   }
+  for (const GraspReport& grasp : report.grasps) {
+    if (!(grasp.slip.slips > 0) && !(grasp.slip.below_hold > 0)) continue;
+    append_formatted(out, "  {} at {} s: slid {} in the fingers, by {} mm and {} degrees; {} s with less grip than holding takes\n",
+                     report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, fixed_text(grasp.start, 3),
+                     counted(static_cast<std::size_t>(grasp.slip.slips), "time"), fixed_text(1e3 * grasp.slip.distance, 1),
+                     fixed_text(degrees(grasp.slip.turned), 1), fixed_text(grasp.slip.below_hold, 3));
+  }
   append_formatted(out, "\nBy vessel, mean +- deviation over grasps: times in s, forces in N\n");
   ColumnTable summary;
   summary.row({"vessel", "grasps", "lost", "G1", "G2", "G3", "G4", "response", "stopped", "before", "during", "after",
@@ -161,7 +168,8 @@ std::string session_table(const SessionReport& report) {
 const char* const GRASP_COLUMNS =
     "start_s,end_s,lift_s,tilt_s,maintain_s,response_time_s,grip_stopped_N,grip_before_N,grip_before_deviation_N,grip_during_N,"
     "grip_during_deviation_N,grip_after_N,grip_after_deviation_N,largest_tilt_deg,tilt_start_s,tilt_time_s,normal_increase_N,"
-    "grip_change_N,turning_back_N,saturated_s,type,guidance_distance_mm,poured_ml,arrived_ml,spilled_ml,outcome";
+    "grip_change_N,turning_back_N,saturated_s,slips,slip_mm,slip_turned_deg,below_hold_s,least_margin_N,type,guidance_distance_mm,"
+    "poured_ml,arrived_ml,spilled_ml,outcome";
 
 std::string grasp_cells(const GraspReport& grasp) {
   std::string cells;
@@ -185,6 +193,9 @@ std::string grasp_cells(const GraspReport& grasp) {
                              grasp.grip_change,
                              grasp.turning_back,
                              grasp.saturated})
+    cells += csv_number(value) + ",";
+  const SlipReport& slip = grasp.slip;
+  for (const double value : {slip.slips, 1e3 * slip.distance, degrees(slip.turned), slip.below_hold, slip.least_margin})
     cells += csv_number(value) + ",";
   return cells + fmt::format("{},{},{},{},{},{}", GRIP_COURSE_NAMES[static_cast<std::size_t>(grasp.course)],
                              csv_number(grasp.guidance_distance, 1e-3), csv_number(grasp.poured, 1e-6),

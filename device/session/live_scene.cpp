@@ -14,6 +14,7 @@
 #include "core/planes.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
+#include "device/session/inertia.h"
 #include "device/session/tick.h"
 #include "device/session/workspace.h"
 
@@ -33,6 +34,7 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
   live.radius = prepared.largest_radius;
   live.vessel = core_f64::load_vessel(prepared, data, quadrature, scene.liquid.has_value(), scene.hand.handedness);
+  live.inertia = wall_inertia(prepared, data, live.vessel, quadrature, scene.hand.handedness);
   if (data.mesh) core_f64::use_lattice(live.vessel, core_f64::load_lattice(mirror(data.mesh->body->lattice)));
   live.force = core_f64::load_force(scene, data);
   live.home = mirror.in(data.place);

@@ -31,6 +31,7 @@ struct LiveVessel {
   core_f64::Vec3 home{};                 // its place at the start
   double radius = 0;                     // at its widest, m
   double volume = 0;                     // at the start, m3
+  core_f64::Mat3 inertia{0};             // of the wall about its center, kg m2
 };
 
 // All constant data of a session. Throws Error (usage): no vessel or more than LIVE_VESSELS, a hand or a vessel that is physically impossible,

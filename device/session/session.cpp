@@ -152,10 +152,10 @@ bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcep
   core_f64::rest_hand(live_->hand, live_->vessels[touch->vessel].vessel,
                       static_cast<core_f64::PoseKind>(static_cast<int>(live_->scene.pose)), *closing, live_->scene.force.friction,
                       {false, false}, answer);
+  vessel_ = touch->vessel;
   keep_grasp(*touch, pose, answer);
   grasp_.device_gap = device_gap;
-  obstacles_.standing[touch->vessel].is_solid = false;
-  vessel_ = touch->vessel;
+  obstacles_.standing[vessel_].is_solid = false;
   state_ = SessionState::lift;
   is_turning_ = false;
   rest_ = SessionState::lift;
@@ -213,9 +213,11 @@ void Session::keep_grasp(const Touch& touch, const HandPose& pose, const core_f6
   grasp_.direction = answer.closing.direction;
   grasp_.touch_mask = answer.touch_mask;
   grasp_.used_mask = answer.used_mask;
+  grasp_.height = grasp_.midpoint.y;
   for (int k = 0; k < 2; ++k) grasp_.proxies[k] = proxies_[k].place - place;
   grasp_.turn = glm::transpose(pose.rotation);
   grasp_.offset = grasp_.turn * (place - pose.middle);
+  begin_slide(answer);
   if (live_->scene.task && !live.guidance.empty()) {
     const Vec3 shown = live.guidance[tasks_done() % live.guidance.size()];
     grasp_.guidance_distance = std::min(glm::length(grasp_.proxies[0] - radii_[0] * touch.normals[0] - shown),
@@ -242,12 +244,15 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   note_delivery(vessel.place);
   fill_held(vessel, load.mass, held, tick);
   tick.wanted.across = workspace_.across_to_device(weight_across(vessel, held.center, pose.rotation[0], tick.weight));
+  const bool keeps_contact = !live_->scene.live.slide || slide(pose, lifted_share(vessel), load, held, seconds, tick);
   // an open hand lets go in this very tick: nothing of the vessel is felt any more
-  if (is_open(device_gap)) leave(vessel);
+  if (is_open(device_gap) || !keeps_contact) leave(vessel);
   if (is_returning(state_)) {
     tick.wanted = {};
     tick.feedback = tick.user_force = 0;
     tick.weight = 0;
+    tick.safety_margin = Tick::NONE;
+    tick.slip_speed = 0;
   }
 }
 
@@ -292,9 +297,12 @@ void Session::note_delivery(Vec3 place) noexcept {
   }
 }
 
+double Session::lifted_share(const Stance& vessel) const noexcept {
+  return minimum_jerk((vessel.place.y - obstacles_.standing[vessel_].place.y) / FULL_WEIGHT);
+}
+
 void Session::fill_held(const Stance& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept {
-  const Vec3 home = obstacles_.standing[vessel_].place;
-  tick.weight = mass * live_->vessels[vessel_].force.gravity * minimum_jerk((vessel.place.y - home.y) / FULL_WEIGHT);
+  tick.weight = mass * live_->vessels[vessel_].force.gravity * lifted_share(vessel);
   tick.torque = held.torque;
   tick.exact_torque = held.exact_torque;
   tick.normal_force = held.normal;
@@ -306,7 +314,7 @@ void Session::fill_held(const Stance& vessel, double mass, const core_f64::HeldF
   tick.wanted.grip = held.feedback;
   tick.touch_mask = grasp_.touch_mask;
   tick.used_mask = grasp_.used_mask;
-  tick.grasp_height = grasp_.midpoint.y;
+  tick.grasp_height = grasp_.height;
   tick.guidance_distance = grasp_.guidance_distance;
   for (int k = 0; k < 2; ++k) tick.proxies[k] = live_->mirror.out(vessel.outward(grasp_.proxies[k]));
   fill_vessel(vessel, tick);

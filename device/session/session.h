@@ -10,10 +10,12 @@
 
 #include "core/grip.h"
 #include "core/held.h"
+#include "device/session/hand_grasp.h"
 #include "device/session/live_hand.h"
 #include "device/session/live_scene.h"
 #include "device/session/pouring.h"
 #include "device/session/proxy.h"
+#include "device/session/slide.h"
 #include "device/session/vessel_tracker.h"
 #include "device/session/workspace.h"
 
@@ -45,7 +47,16 @@ class Session {
     core_f64::Vec3 offset{};  // of the vessel's origin from the middle of the tips, in the gripper's axes
     std::uint32_t touch_mask = 0, used_mask = 0;
     double guidance_distance = Tick::NONE;
+    double height = 0;  // of the midpoint at the grasp, vessel frame, m
     bool is_delivered = false;
+  };
+  // How the held vessel has slid since the grasp. `u` and `v` are across the line of the tips, in the gripper's axes.
+  struct Sliding {
+    core_f64::Vec3 u{}, v{};
+    SlideMotion motion;
+    HandGrasp hand;                              // with slide_by = "hand"
+    double distance = 0, angle = 0;              // m, rad
+    double posed_distance = 0, posed_angle = 0;  // where the other fingers last came to rest
   };
   // Both tips on one vessel, and its outward normals there.
   struct Touch {
@@ -65,11 +76,20 @@ class Session {
   void keep_grasp(const Touch& touch, const HandPose& pose, const core_f64::GripAnswer& answer) noexcept;
   void hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept;
   Leaning leaning_of(const Stance& vessel) const noexcept;
+  void begin_slide(const core_f64::GripAnswer& answer) noexcept;
+  // False: contact is lost. `lifted` is the share of the weight that no table carries.
+  bool slide(const HandPose& pose, double lifted, const core_f64::Load& load, const core_f64::HeldForces& held, double seconds,
+             Tick& tick) noexcept;
+  bool follow_line(core_f64::Vec3 line, core_f64::Vec3 middle) noexcept;
+  void pose_again() noexcept;
+  bool slides_by_hand() const noexcept;
+  void take_posed(const core_f64::GripAnswer& answer) noexcept;
   core_f64::Load run_liquid(const Stance& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept;
   bool is_at_destination(core_f64::Vec3 place) const noexcept;
   void note_delivery(core_f64::Vec3 place) noexcept;
   void fill_held(const Stance& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
   core_f64::Vec3 weight_across(const Stance& vessel, core_f64::Vec3 center, core_f64::Vec3 line, double weight) const noexcept;
+  double lifted_share(const Stance& vessel) const noexcept;
   bool is_open(double device_gap) const noexcept;
   SessionState turning(double tilt) noexcept;
   void leave(const Stance& pose) noexcept;
@@ -94,6 +114,7 @@ class Session {
   SessionState state_ = SessionState::free;
   int vessel_ = -1;  // touched, held or returning
   Grasp grasp_;
+  Sliding sliding_;
   bool is_turning_ = false;
   SessionState rest_ = SessionState::lift;  // when it does not turn
   double rested_at_ = 0;                    // rad: tilt at which it last came to rest
@@ -113,5 +134,8 @@ constexpr double RETURN_TIME = 0.5;           // s of a vessel's return
 constexpr double PUT_DOWN = 15e-3;            // m: released this near to where it stood, it counts as put down and not lost
 constexpr double DESTINATION_RADIUS = 30e-3;  // m
 constexpr double FULL_WEIGHT = 5e-3;          // m of lifting over which the weight comes on
+constexpr double POSE_SLIP = 1e-3;            // m of sliding after which the other fingers come to rest anew
+constexpr double POSE_TURN = 1 * PI / 180;    // rad: likewise
+constexpr double LEAST_GYRATION = 1e-3;       // m: a vessel's radius of gyration is no smaller
 
 }  // namespace wholehand::device

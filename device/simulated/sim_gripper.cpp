@@ -137,6 +137,7 @@ class SimGripper final : public Gripper {
     shown_.felt = tick.written.grip;
     shown_.load = is_held(tick.state) ? tick.feedback - tick.user_force : 0;
     shown_.weight = tick.weight;
+    shown_.holding = tick.slip_speed > FELT_SLIP ? tick.user_force - tick.safety_margin : 0;
     const int vessel = user_.vessel();
     shown_.arrived = vessel >= 0 ? tick.arrived[vessel] : 0;
     shown_.flow = tick.flow;

@@ -142,16 +142,21 @@ void SimUser::next_grasp() noexcept {
   const LiveVessel& vessel = live_.vessels[job().vessel];
   const double density = live_.scene.liquid ? live_.scene.liquid->density : 0;
   weight_ = vessel.force.gravity * core_f64::load_with(vessel.vessel, density * vessel.volume, 0, 0).mass;
-  load_ = 0;
+  load_ = caught_ = catching_ = 0;
 }
 
-// The grip follows what opens the fingers, and a weight above the expected one, over the response time.
+// The grip follows what opens the fingers, and a weight above the expected one, over the response time. A felt slip raises it to what holding takes
+// with the person's margin, and it stays there (Johansson and Westling 1987).
 void SimUser::follow_load(const SimSense& sense, double seconds) noexcept {
   const double surplus = std::max(0.0, sense.weight - traits_[Trait::weight_guess] * weight_);
   const double rise = sense.load + surplus / (2 * traits_[Trait::friction]);
   // nine tenths and a half of a step within the response
-  load_ += (rise - load_) * -std::expm1(-3 * seconds / traits_[Trait::response]);
-  command_.force = std::clamp(loaded_force(traits_, first_force(traits_, weight_), load_), 0.0, largest_force(traits_));
+  const double share = -std::expm1(-3 * seconds / traits_[Trait::response]), most = largest_force(traits_);
+  load_ += (rise - load_) * share;
+  const double loaded = loaded_force(traits_, first_force(traits_, weight_), load_);
+  if (sense.holding > 0) caught_ = std::max(caught_, std::min(sense.holding / (1 - traits_[Trait::margin]), most));
+  catching_ += (std::max(0.0, caught_ - loaded) - catching_) * share;
+  command_.force = std::clamp(loaded + catching_, 0.0, most);
 }
 
 // Takes the grip shown for the job's vessel from now on, also in further tries. The person's aim is as good or bad as at any other.

@@ -63,12 +63,14 @@ struct SimSense {
   double felt = 0;     // at the fingers, N
   double load = 0;     // its increase since the grasp that the fingers did not cause, N
   double weight = 0;   // at the arm, N
+  double holding = 0;  // while the vessel slips in the fingers: the grip force that holding it takes, N; else 0
   double gap = 0;      // of the hand, m
   double arrived = 0;  // of the vessel's liquid in the target, m3
   double flow = 0;     // m3/s
 };
 
-constexpr double FELT = 0.3;  // N at the fingers: a contact
+constexpr double FELT = 0.3;        // N at the fingers: a contact
+constexpr double FELT_SLIP = 1e-3;  // m/s: a slower slip is not felt
 
 class SimUser {
  public:
@@ -109,9 +111,10 @@ class SimUser {
   Participant person_;
   Traits traits_{};
   int grasp_ = -1;
-  double weight_ = 0;  // of the vessel that is taken, N
-  double load_ = 0;    // that the grip force follows, N
-  double idle_ = 0;    // s without pouring
+  double weight_ = 0;                 // of the vessel that is taken, N
+  double load_ = 0;                   // that the grip force follows, N
+  double caught_ = 0, catching_ = 0;  // the least grip force since a slip, and what is squeezed for it beyond the loaded force, N
+  double idle_ = 0;                   // s without pouring
   int job_ = 0, attempts_ = 0, abandoned_ = 0;
   bool has_failed_ = false, has_run_ = false;
   bool follows_ = false;

@@ -81,7 +81,7 @@ Scene force_scene(const Scene& scene, std::size_t vessel) {
   Scene one = scene;
   one.vessels = {scene.vessels[vessel]};
   one.task.reset();
-  one.strength.reset();
+  if (!(scene.live.slide && scene.live.slide_by == SlideBy::hand)) one.strength.reset();
   one.robust.reset();
   one.arm.reset();
   one.tilts.clear();

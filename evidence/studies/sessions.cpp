@@ -24,6 +24,9 @@ constexpr std::array<double device::GraspReport::*, 16> GRASP_REALS{
     &device::GraspReport::poured,         &device::GraspReport::arrived};
 constexpr std::array<device::MeanDeviation device::GraspReport::*, 3> GRASP_MEANS{
     &device::GraspReport::before, &device::GraspReport::during, &device::GraspReport::after};
+constexpr std::array<double device::SlipReport::*, 5> SLIP_REALS{&device::SlipReport::slips, &device::SlipReport::distance,
+                                                                 &device::SlipReport::turned, &device::SlipReport::below_hold,
+                                                                 &device::SlipReport::least_margin};
 
 }  // namespace
 
@@ -54,6 +57,7 @@ std::vector<double> to_numbers(const PersonSessions& sessions) {
   std::vector<double> numbers{static_cast<double>(sessions.broken)};
   for (const device::GraspReport& grasp : sessions.grasps) {
     for (const auto member : GRASP_REALS) numbers.push_back(grasp.*member);
+    for (const auto member : SLIP_REALS) numbers.push_back(grasp.slip.*member);
     numbers.insert(numbers.end(), grasp.duration.begin(), grasp.duration.end());
     for (const auto member : GRASP_MEANS) {
       const device::MeanDeviation& one = grasp.*member;
@@ -68,12 +72,13 @@ std::vector<double> to_numbers(const PersonSessions& sessions) {
 PersonSessions sessions_from_numbers(const std::vector<double>& numbers) {
   PersonSessions sessions;
   if (numbers.empty()) return sessions;
-  constexpr std::size_t EACH = GRASP_REALS.size() + 3 + 3 * GRASP_MEANS.size() + 3;
+  constexpr std::size_t EACH = GRASP_REALS.size() + SLIP_REALS.size() + 3 + 3 * GRASP_MEANS.size() + 3;
   sessions.broken = static_cast<int>(numbers[0]);
   sessions.grasps.resize((numbers.size() - 1) / EACH);
   std::size_t at = 1;
   for (device::GraspReport& grasp : sessions.grasps) {
     for (const auto member : GRASP_REALS) grasp.*member = numbers[at++];
+    for (const auto member : SLIP_REALS) grasp.slip.*member = numbers[at++];
     for (double& duration : grasp.duration) duration = numbers[at++];
     for (const auto member : GRASP_MEANS) {
       device::MeanDeviation& one = grasp.*member;

@@ -65,14 +65,15 @@ export class Panels {
     this.clamp = element('output', {class: 'clamp'});
     const bar = element('div', {class: 'force-bar', 'aria-hidden': 'true'}, ...this.forceParts);
     this.forceRows = {};
-    const rows = element('dl', {class: 'forces'}), {strength} = this.about;
+    const rows = element('dl', {class: 'forces'}), {strength, slides} = this.about;
     for (const [key, symbol, sub, what, kind, unit = 'N'] of [
       ['base', 'F', 'base', 'from the grasp on', 'base'], ['normal', 'F', 'n', 'with the torque', 'torque'],
       ['opening', 'F', 'o', 'from squeezing further', 'opening'], ['user', 'Grip', '', 'the user’s own', 'user'],
       ['hold', 'N', 'hold', strength ? 'of the whole hand' : 'needed to hold', 'hold'],
       // whose unit is in its text, which may be words
       ...(strength ? [['tipsHold', 'N', 'tips', 'of two tips alone', 'tips'], ['effort', 'Effort', '', 'of the whole hand', 'effort', ''],
-        ['tipsEffort', 'Effort', '', 'of two tips alone', 'effort', ''], ['arrow', 'Arrow', '', 'the longest', 'arrow']] : [])]) {
+        ['tipsEffort', 'Effort', '', 'of two tips alone', 'effort', ''], ['arrow', 'Arrow', '', 'the longest', 'arrow']] : []),
+      ...(slides ? [['margin', 'Margin', '', 'of the grip over holding', 'hold'], ['slip', 'Slip', '', 'in the fingers', 'effort', ''], ['slipTurn', 'Turn', '', 'in the fingers', 'effort', '']] : [])]) {
       const value = element('output', {});
       this.forceRows[key] = value;
       rows.append(element('div', {class: `force-row ${kind}`}, element('dt', {}, element('i', {class: 'swatch', 'aria-hidden': 'true'}), symbol, element('sub', {text: sub}), element('small', {text: what})),
@@ -120,6 +121,7 @@ export class Panels {
     this.showState(frame, grip);
     this.showForce(frame.forces);
     if (this.about.strength) this.showHolding(frame.holding);
+    if (this.about.slides) this.showSlip(frame.slip);
     CONTACTS.forEach((contact, k) => setText(this.counts[k], String([...frame.contacts].filter((c) => c === contact.key).length)));
     if (this.amounts) this.showAmounts(frame);
     const {timing} = frame;
@@ -181,6 +183,13 @@ export class Panels {
     setText(this.forceRows.effort, holding ? share(holding.effort) : fixed(null));
     setText(this.forceRows.tipsEffort, holding ? share(holding.tips_effort) : fixed(null));
     setText(this.forceRows.arrow, fixed(longest, 2));
+  }
+
+  // Without `slip` nothing is held; a margin that is null there is minus infinity.
+  showSlip(slip) {
+    setText(this.forceRows.margin, slip && slip.margin === null ? '−∞' : fixed(slip && slip.margin, 2));
+    setText(this.forceRows.slip, slip ? `${fixed(slip.distance * 1e3, 1)} mm${slip.speed > 0 ? ', slips' : ''}` : fixed(null));
+    setText(this.forceRows.slipTurn, slip ? `${fixed(slip.angle * 180 / Math.PI, 1)}°` : fixed(null));
   }
 
   showAmounts(frame) {

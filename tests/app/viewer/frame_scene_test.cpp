@@ -71,6 +71,16 @@ TEST(ViewScene, StrengthsAreThereWhereTheSceneHasThem) {
   EXPECT_EQ(parse_json(view_scene_json(scene, {}))["strength"], json({1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
 }
 
+TEST(ViewScene, SaysWhereVesselsSlide) {
+  Scene scene = live_scene();
+  EXPECT_FALSE(parse_json(view_scene_json(scene, {})).contains("slides"));
+  scene.live.slide = true;
+  EXPECT_EQ(parse_json(view_scene_json(scene, {}))["slides"], true);
+  ViewFacts grips;
+  grips.mode = ViewMode::grips;
+  EXPECT_FALSE(parse_json(view_scene_json(scene, grips)).contains("slides")) << "a listed grip holds still";
+}
+
 TEST(ViewScene, ATitleMayBeAnyBytes) {
   ViewFacts facts;
   facts.title = "m\xfc.nc";  // a file's name in Latin-1

@@ -249,6 +249,28 @@ TEST(ViewFrame, TellsWhatHoldingTakesOfTheHand) {
   EXPECT_GT(held, 20);
 }
 
+// Where vessels slide: margin, way, turn and speed of what is held, and nothing of them where sliding is off.
+TEST(ViewFrame, TellsHowTheHeldVesselSlips) {
+  Scene scene = live_scene();
+  scene.live.slide = true;
+  const device::LiveScene live(scene);
+  FrameMaker maker(live);
+  int slipped = 0;
+  for (const auto& [tick, poses] : moments(scene)) {
+    SCOPED_TRACE("tick " + std::to_string(tick.number));
+    const json seen = parse_json(frame_json(maker.make(tick, poses, device::hand_view(live, tick, poses), {})));
+    ASSERT_EQ(seen.contains("slip"), device::is_held(tick.state));
+    if (!device::is_held(tick.state)) continue;
+    EXPECT_EQ(keys_of(seen["slip"]), (std::set<std::string>{"margin", "distance", "angle", "speed"}));
+    EXPECT_TRUE(is_seen(seen["slip"]["margin"], tick.safety_margin));
+    EXPECT_TRUE(is_seen(seen["slip"]["distance"], tick.slip_distance));
+    EXPECT_TRUE(is_seen(seen["slip"]["angle"], tick.slip_angle));
+    EXPECT_TRUE(is_seen(seen["slip"]["speed"], tick.slip_speed));
+    slipped += tick.slip_distance > 0;
+  }
+  EXPECT_GT(slipped, 2) << "the script's grip is too weak";
+}
+
 TEST(ViewFrame, WhatNoForceHoldsIsNull) {
   constexpr double INFINITE = std::numeric_limits<double>::infinity();
   ViewFrame frame;

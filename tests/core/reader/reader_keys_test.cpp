@@ -72,7 +72,7 @@ const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
       "finger_stiffness_N_m",
       "patience_s",
       "strength"}},
-    {"[live]", {"rate_Hz", "K_N_m", "B_Ns_m", "slip_mm", "ramp_s", "slew_N_s", "jump_m_s", "late_steps"}},
+    {"[live]", {"rate_Hz", "K_N_m", "B_Ns_m", "slip_mm", "ramp_s", "slew_N_s", "jump_m_s", "late_steps", "slide", "slide_by"}},
     {"[device]", {"gap_mm", "workspace_scale", "origin_mm", "axes", "clutch_button", "library"}},
     {"[task]", {"target", "amounts_ml", "destination_mm", "tolerance_ml"}},
 };

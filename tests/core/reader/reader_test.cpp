@@ -495,6 +495,8 @@ ramp_s = 0.25
 slew_N_s = 1000
 jump_m_s = 4
 late_steps = 5
+slide = true
+slide_by = "hand"
 [device]
 gap_mm = [0, 25]
 workspace_scale = 1.5
@@ -523,6 +525,8 @@ liquid = { name = "acid", fill = 0.5 }
   EXPECT_EQ(scene.live.slew, 1000);
   EXPECT_EQ(scene.live.jump, 4);
   EXPECT_EQ(scene.live.late_steps, 5);
+  EXPECT_TRUE(scene.live.slide);
+  EXPECT_EQ(scene.live.slide_by, SlideBy::hand);
   EXPECT_TRUE(scene.device.has_gap);
   EXPECT_EQ(scene.device.gap, (std::array{0.0, 25e-3}));
   EXPECT_EQ(scene.device.workspace_scale, 1.5);

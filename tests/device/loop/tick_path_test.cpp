@@ -109,7 +109,7 @@ struct Seen {
   std::atomic<bool> is_watched{false};  // as seen from outside
   std::array<std::atomic<int>, SESSION_STATES> states{};
   std::atomic<bool> poured{false};
-  std::atomic<long> allocations{0}, locks{0}, ticks{0};
+  std::atomic<long> allocations{0}, locks{0}, ticks{0}, slipping{0};
 };
 
 // Follows the script. Its own calls are not watched, what lies between them is; `misbehave` is called in between.
@@ -137,6 +137,7 @@ class WatchingGripper : public Gripper {
   }
   void show(const Tick& tick) noexcept override {
     ++seen_.states[static_cast<std::size_t>(tick.state)];
+    seen_.slipping += tick.slip_speed > 0;
     if (tick.arrived[0] > 10e-6 && tick.flow > 0) seen_.poured = true;
     ++seen_.ticks;
     if (misbehave_) misbehave_();
@@ -156,8 +157,7 @@ class WatchingGripper : public Gripper {
   bool is_over_ = false;
 };
 
-void run_loop(Seen& seen, bool is_simulated, double hurry, const std::function<void()>& misbehave) {
-  Scene scene = live_scene();
+void run_loop(Seen& seen, bool is_simulated, double hurry, const std::function<void()>& misbehave, Scene scene = live_scene()) {
   scene.live.late_steps = 1 << 30;  // a tick that is looked into takes its time
   scene.live.jump = 1e3;
   LiveScript script;
@@ -194,6 +194,23 @@ TEST(TickPath, NeitherAllocatesNorLocks) {
     Seen seen;
     run_loop(seen, is_simulated, is_simulated ? 1 : 5, {});
     expect_every_state(seen);
+    EXPECT_EQ(seen.allocations, 0);
+    EXPECT_EQ(seen.locks, 0);
+  }
+}
+
+// The vessel slides until it is lost, by the tips' and by the whole hand's hold force.
+TEST(TickPath, SlidingNeitherAllocatesNorLocks) {
+  for (const SlideBy by : {SlideBy::tips, SlideBy::hand}) {
+    Scene scene = live_scene();
+    scene.strength.emplace();
+    scene.force.base = 3;
+    scene.force.max = 12;
+    scene.live.slide = true;
+    scene.live.slide_by = by;
+    Seen seen;
+    run_loop(seen, true, 1, {}, scene);
+    EXPECT_GT(seen.slipping, 50);
     EXPECT_EQ(seen.allocations, 0);
     EXPECT_EQ(seen.locks, 0);
   }

@@ -60,7 +60,7 @@ TEST(Recording, OutlivesTheProcess) {
     const std::size_t bytes = std::filesystem::file_size(path + ".partial");
     for (std::size_t k = 0; k < recording.ticks.size(); ++k) ASSERT_EQ(recording.ticks[k].device.sequence, k + 1);
     // no more than the block under way is lost
-    const double per_tick = 760 + 24 * 2;
+    const double per_tick = 792 + 24 * 2;
     EXPECT_LT(static_cast<double>(bytes), (static_cast<double>(recording.ticks.size()) + 64) * per_tick + 20000);
   }
 }

@@ -162,6 +162,52 @@ TEST(SessionReport, WayBackDoesNotCount) {
   EXPECT_EQ(grasp.after.count, 0u);
 }
 
+// Two slips: 100 ms at 20 mm/s, of which the last 30 ms with enough force, and 50 ms at 10 mm/s that also turn it.
+TEST(SessionReport, SlipsInTheFingers) {
+  RecordedSession session;
+  session.hold(0).with([](Tick& tick) { tick.safety_margin = 0.5; }).stretch(0.2, SessionState::lift);
+  session.stretch(0.1, SessionState::lift, [](double t, Tick& tick) {
+    tick.safety_margin = t < 0.0695 ? -0.25 : 0.125;
+    tick.slip_speed = 20e-3;
+    tick.slip_distance += 20e-6;
+  });
+  session.with([](Tick& tick) { tick.slip_speed = 0; }).stretch(0.3, SessionState::lift);
+  session.stretch(0.05, SessionState::lift, [](double, Tick& tick) {
+    tick.safety_margin = -1;
+    tick.slip_speed = 10e-3;
+    tick.slip_distance += 10e-6;
+    tick.slip_angle -= 1e-3;
+  });
+  session
+      .with([](Tick& tick) {
+        tick.slip_speed = 0;
+        tick.safety_margin = 1;
+      })
+      .stretch(0.1, SessionState::lift);
+  const GraspReport grasp = only_grasp(session);
+  ASSERT_TRUE(grasp.slip.is_measured());
+  EXPECT_EQ(grasp.slip.slips, 2);
+  EXPECT_NEAR(grasp.slip.distance, 2.5e-3, 1e-12);
+  EXPECT_NEAR(grasp.slip.turned, -0.05, 1e-12);
+  EXPECT_NEAR(grasp.slip.below_hold, 0.12, 1e-9);
+  EXPECT_EQ(grasp.slip.least_margin, -1);
+  const auto json = parse_json(session_json(session.report()));
+  EXPECT_EQ(json["grasps"][0]["slip"]["slips"], 2);
+  EXPECT_NE(session_table(session.report())
+                .find("one at 0.000 s: slid 2 times in the fingers, by 2.5 mm and -2.9 degrees; 0.120 s "
+                      "with less grip than holding takes"),
+            std::string::npos);
+  const std::string csv = grasps_csv(session.report());
+  EXPECT_NE(csv.find("slips,slip_mm,slip_turned_deg,below_hold_s,least_margin_N,type"), std::string::npos);
+}
+
+TEST(SessionReport, WithoutSlidingThereAreNoSlips) {
+  RecordedSession session;
+  session.hold(0).stretch(0.2, SessionState::lift);
+  EXPECT_FALSE(only_grasp(session).slip.is_measured());
+  EXPECT_TRUE(parse_json(session_json(session.report()))["grasps"][0]["slip"].is_null());
+}
+
 TEST(SessionReport, HowGraspsEnd) {
   RecordedSession session;
   session.hold(0).stretch(0.2, SessionState::lift).stretch(0.2, SessionState::free);  // let go

@@ -113,8 +113,7 @@ TEST(Session, StrengthsChangeNoTick) {
   expect_same_ticks(play_session(scene, script_for(scene)), without);
 }
 
-TEST(Session, ALeftHandIsMirrored) {
-  Scene right = live_scene();
+void expect_mirrored(Scene right) {
   right.vessels.push_back(lopsided());
   right.vessels[2].place = {-0.3, 0, 0};
   Scene left = right;
@@ -152,12 +151,24 @@ TEST(Session, ALeftHandIsMirrored) {
       EXPECT_LT(glm::length(to_vec3(a[k].vessel_place) - to_vec3(mirrored_x(b[k].vessel_place))), 1e-12);
       EXPECT_NEAR(a[k].torque, b[k].torque, 1e-12);
       EXPECT_EQ(a[k].touch_mask, b[k].touch_mask);
+      EXPECT_NEAR(a[k].slip_distance, b[k].slip_distance, 1e-12);
+      EXPECT_NEAR(a[k].slip_angle, b[k].slip_angle, 1e-12);
       EXPECT_NEAR(a[k].volume[0], b[k].volume[0], 1e-15);
       EXPECT_NEAR(a[k].arrived[0], b[k].arrived[0], 1e-15);
       held += is_held(a[k].state);
     }
     EXPECT_GT(held, 1000);
   }
+}
+
+TEST(Session, ALeftHandIsMirrored) { expect_mirrored(live_scene()); }
+
+TEST(Session, ALeftHandIsMirroredWhereVesselsSlide) {
+  Scene scene = live_scene();
+  scene.live.slide = true;
+  scene.force.base = 3;
+  scene.force.max = 12;
+  expect_mirrored(scene);
 }
 
 }  // namespace

@@ -281,6 +281,36 @@ TEST(SimGripper, HoldsTheForceThatThePersonWants) {
 }
 
 // The same task by other people, each with a hand and habits of their own; and each person again to the bit.
+// A person who reckons with more friction than there is lets the vessel slip, feels it, and squeezes one reaction later.
+TEST(SimGripper, SqueezesAReactionAfterASlip) {
+  Scene scene = beside_each_other(shipped_live());
+  scene.task.reset();
+  scene.vessels.pop_back();  // the last one takes more than the gripper's 8 N
+  scene.live.slide = true;
+  scene.force.friction = 0.4;  // the median person reckons with 0.6, and a margin of a quarter
+  scene.force.torsion = 0.02;
+  const Traits traits = Participant(scene.people).grasp(0);
+  const SimSession session = play(scene, 1);
+  EXPECT_EQ(session.report.last.lost, 0);
+  int slips = 0, lifted = 0;
+  const std::vector<Tick>& ticks = session.ticks;
+  for (std::size_t k = 1; k < ticks.size(); ++k) {
+    if (!(ticks[k].slip_speed > FELT_SLIP) || ticks[k - 1].slip_speed > FELT_SLIP) continue;
+    ++slips;
+    const auto after = [&](double seconds) { return ticks.at(k + static_cast<std::size_t>(1e3 * seconds)); };
+    const Tick caught = after(traits[Trait::reaction] + 2 * traits[Trait::response]);
+    EXPECT_EQ(caught.slip_speed, 0) << k;
+    EXPECT_GT(caught.safety_margin, 0) << k;
+    if (ticks[k].state != SessionState::lift) continue;
+    ++lifted;
+    // tremor moves the force before, the squeeze after the reaction
+    const double before = after(0.95 * traits[Trait::reaction]).user_force - ticks[k].user_force;
+    EXPECT_LT(std::abs(before), 0.2 * (caught.user_force - ticks[k].user_force)) << k;
+  }
+  EXPECT_GT(slips, 3);
+  EXPECT_EQ(lifted, 3);
+}
+
 TEST(SimGripper, PeopleDifferAndEachIsTheSameAgain) {
   const auto session_of = [](std::uint64_t number) {
     Scene scene = shipped_live();

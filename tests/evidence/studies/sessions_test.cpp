@@ -188,10 +188,10 @@ TEST(Sessions, GraspsSurviveAsNumbers) {
   EXPECT_EQ(again[0].before.count, grasps[0].before.count);
   EXPECT_EQ(again[0].spilled, grasps[0].spilled);
   EXPECT_EQ(again[0].after_at_first, grasps[0].after_at_first);
-  // a member that to_numbers leaves out would be lost: 16 numbers, 3 durations, 3 means of 3 numbers, and 3 names
-  EXPECT_EQ(to_numbers({grasps, 0}).size(), 1 + 31 * grasps.size());
+  // a member that to_numbers leaves out would be lost: 16 numbers, 5 of slips, 3 durations, 3 means of 3 numbers, and 3 names
+  EXPECT_EQ(to_numbers({grasps, 0}).size(), 1 + 36 * grasps.size());
   // with the names, each padded to a number; grip and shown point are of recordings alone
-  EXPECT_EQ(sizeof(device::GraspReport), 16 * 8 + 3 * 8 + 9 * 8 + 8 + 8u + sizeof(std::optional<GripInput>) + 8);
+  EXPECT_EQ(sizeof(device::GraspReport), 16 * 8 + 5 * 8 + 3 * 8 + 9 * 8 + 8 + 8u + sizeof(std::optional<GripInput>) + 8);
 }
 
 TEST(StudyJournal, GoesOnAndRefusesAnother) {
