@@ -32,8 +32,12 @@ amounts_ml = { red = 20 }
 destination_mm = [-200, 0, 0]
 tolerance_ml = 5
 
+[force]
+torsion_mm = 30  # so that the gripper's 8 N hold it at any tilt
+
 [live]
 late_steps = 1000  # on however busy a machine
+slide = true
 """
 HELD = ["lift", "tilt", "maintain"]
 # What the page shows, kept at each picture: states in their order, and the largest of what changes
@@ -138,6 +142,14 @@ class ASession(ViewerTest):
                 (Math.max(...parts.map(({{right}}) => right)) - bar.left) / bar.width * {most}]; }})({forces})""")
             self.assertEqual(shown[:2], [f"{forces['written']:.2f}", said])
             self.assertAlmostEqual(shown[2], forces["written"], delta=0.01, msg="the bar ends there")
+
+    def test_margin_and_slip_are_shown(self):
+        rows = "((slip) => { wholehand.panels.showSlip(slip); return ['margin', 'slip', 'slipTurn'].map((key) => wholehand.panels.forceRows[key].textContent); })"
+        for slip, shown in [('{"margin": 0.524, "distance": 0, "angle": 0, "speed": 0}', ["0.52", "0.0 mm", "0.0°"]),
+                            ('{"margin": -0.25, "distance": 0.00321, "angle": -0.1, "speed": 0.02}', ["−0.25", "3.2 mm, slips", "−5.7°"]),
+                            ('{"margin": null, "distance": 0.01, "angle": 0.5, "speed": 0.1}', ["−∞", "10.0 mm, slips", "28.6°"]),
+                            ("undefined", ["–", "–", "–"])]:
+            self.assertEqual(self.page.evaluate(f"{rows}({slip})"), shown, slip)
 
     def test_the_page_says_that_it_is_over(self):
         self.assertRegex(self.said, "^over")
