@@ -297,10 +297,6 @@ void Session::note_delivery(Vec3 place) noexcept {
   }
 }
 
-double Session::lifted_share(const Stance& vessel) const noexcept {
-  return minimum_jerk((vessel.place.y - obstacles_.standing[vessel_].place.y) / FULL_WEIGHT);
-}
-
 void Session::fill_held(const Stance& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept {
   tick.weight = mass * live_->vessels[vessel_].force.gravity * lifted_share(vessel);
   tick.torque = held.torque;

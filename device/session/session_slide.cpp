@@ -52,6 +52,10 @@ void Session::begin_slide(const core_f64::GripAnswer& answer) noexcept {
   sliding_.v = glm::cross(line, sliding_.u);
 }
 
+double Session::lifted_share(const Stance& vessel) const noexcept {
+  return minimum_jerk((vessel.place.y - obstacles_.standing[vessel_].place.y) / FULL_WEIGHT);
+}
+
 // A table carries what is not lifted; so the same share of the weight loads the grip and the arm.
 bool Session::slide(const HandPose& pose, double lifted, const core_f64::Load& load, const core_f64::HeldForces& held,
                     double seconds, Tick& tick) noexcept {
@@ -77,7 +81,11 @@ bool Session::slide(const HandPose& pose, double lifted, const core_f64::Load& l
     friction = hand_friction(body, across(weight), tick.user_force / needed, mu, gamma);
   else if (grasp_.is_antipodal)
     friction = slide_friction(tick.user_force, along, mu, gamma);
+  const Vec2 before = sliding_.motion.velocity;
   const SlideStep step = slide_step(body, across(weight), friction, seconds, sliding_.motion);
+  // the arm carries what friction carries: the weight less what accelerates the vessel
+  const Vec2 gained = load.mass / seconds * (sliding_.motion.velocity - before);
+  tick.wanted.arm = workspace_.to_device(pose.rotation * (weight - gained.x * sliding_.u - gained.y * sliding_.v));
   sliding_.distance += step.slipped;
   sliding_.angle += step.turned;
   tick.slip_speed = step.slipped / seconds;

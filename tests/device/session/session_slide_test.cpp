@@ -154,6 +154,9 @@ TEST(SessionSlide, FallsWithWhatFrictionLeavesOfGravity) {
   // 1e-6 m: the liquid weighs on as it is, and the grip force is steady to 1e-3
   EXPECT_NEAR(last.slip_distance, way, 1e-6);
   EXPECT_NEAR(InHand(record[LIFTED]).place.y - InHand(last).place.y, way, 1e-6);
+  // the arm carries what friction carries
+  EXPECT_NEAR(last.wanted.arm[1], -2 * scene.force.friction * force, 1e-6);
+  EXPECT_NEAR(record[LIFTED].wanted.arm[1], -last.weight, 1e-6);
   EXPECT_LT(std::abs(last.slip_angle), 1e-6);
   EXPECT_LT(last.tilt, 1e-6);
 }
