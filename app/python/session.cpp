@@ -180,6 +180,12 @@ void bind_hold(py::class_<Step>& type) {
           "effort", &Step::effort,
           "Least share of the hand's strength that holds the vessel, with all contacts; inf: no force holds it;\n"
           "NaN: nothing is held, or [strength] says efforts = false.")
+      .def_property_readonly("safety_margin", number(&device::Tick::safety_margin),
+                             "The user's grip force less what holding takes now, N; NaN: nothing is held, or [live] slide is off.")
+      .def_property_readonly("slip_distance", number(&device::Tick::slip_distance),
+                             "Way of the contacts along the surface since the grasp, m.")
+      .def_property_readonly("slip_angle", number(&device::Tick::slip_angle), "Turn in the fingers since the grasp, rad.")
+      .def_property_readonly("slip_speed", number(&device::Tick::slip_speed), "Speed of the contacts along the surface, m/s.")
       .def_property_readonly("weight", number(&device::Tick::weight), "Weight of vessel and liquid, as far as it is lifted, N.")
       .def_property_readonly("torque", number(&device::Tick::torque), "Torque of the held vessel, N m.")
       .def_property_readonly("tilt", number(&device::Tick::tilt), "Between the vessel's axis and up, rad.")
