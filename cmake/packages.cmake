@@ -31,6 +31,7 @@ find_path(HIDAPI_INCLUDE_DIR hidapi/hidapi.h REQUIRED)
 find_library(HIDAPI_LIBRARY hidapi-hidraw REQUIRED)
 find_path(LIBUSB_INCLUDE_DIR libusb-1.0/libusb.h REQUIRED)
 find_library(LIBUSB_LIBRARY usb-1.0 REQUIRED)
+find_path(BOOST_INCLUDE_DIR boost/beast/websocket/stream.hpp REQUIRED)  # only headers
 if(HAS_TRIALS IN_LIST WHOLEHAND_PARTS)
   find_path(MUJOCO_INCLUDE_DIR mujoco/mujoco.h REQUIRED)  # the library is loaded at run time
 endif()

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "app/program/values.h"
 #include "base/text/error.h"
 #include "core/reader/ranges.h"
 #include "core/reader/text.h"
+#include "device/grippers/haply_gripper.h"
 #include "device/grippers/hid_gripper.h"
 #include "device/grippers/omega_gripper.h"
 #include "device/grippers/osc_gripper.h"
@@ -43,6 +45,41 @@ HostPort parse_osc_place(const std::string& text) {
   return place;
 }
 
+// Of an id as `devices` shows it: what an address can hold.
+bool is_haply_id(const std::string& id) {
+  const auto is_plain = [](char letter) { return letter > ' ' && letter <= '~' && letter != ',' && letter != '/'; };
+  return !id.empty() && std::all_of(id.begin(), id.end(), is_plain);
+}
+
+// haply[:PORT | :HOST:PORT][/ID | /LEFT_ID,RIGHT_ID]; nothing for another device.
+std::optional<device::HaplyAddress> parse_haply(const std::string& device) {
+  constexpr std::string_view HAPLY = "haply";
+  if (device.rfind(HAPLY, 0) != 0) return std::nullopt;
+  const std::size_t slash = device.find('/');
+  const std::string place = device.substr(HAPLY.size(), slash == std::string::npos ? slash : slash - HAPLY.size());
+  if (!place.empty() && place[0] != ':') return std::nullopt;
+  device::HaplyAddress address;
+  std::string wrong;
+  if (place.find(':', 1) != std::string::npos)
+    wrong = read_host_port(place.substr(1), 1, address.at);
+  else if (!place.empty() && !read_port(place.substr(1), 1, address.at.port))
+    wrong = fmt::format("its port is not a whole number from 1 to {}", LARGEST_PORT);
+  if (slash != std::string::npos) {
+    const std::string ids = device.substr(slash + 1);
+    const std::size_t comma = ids.find(',');
+    address.arms = {ids.substr(0, comma), comma == std::string::npos ? "" : ids.substr(comma + 1)};
+    if (!is_haply_id(address.arms[0]) || (comma != std::string::npos && !is_haply_id(address.arms[1])))
+      wrong = "behind the / it has no one or two ids of devices";
+  }
+  if (!wrong.empty()) {
+    throw usage_error(
+        fmt::format("--device {}: {}; allowed: haply, haply:PORT or haply:HOST:PORT, and behind it /ID or "
+                    "/LEFT_ID,RIGHT_ID with ids that `wholehand devices` shows; for example haply/049D,04BA",
+                    in_quotes(device), wrong));
+  }
+  return address;
+}
+
 }  // namespace
 
 std::optional<HostPort> osc_place(const std::string& device) {
@@ -70,9 +107,11 @@ std::unique_ptr<device::Gripper> open_gripper(const std::string& device, const S
     return device::open_omega(library.empty() ? scene.device.library : library, watchdog, number);
   }
   if (const std::optional<HostPort> place = osc_place(device)) return device::open_osc(*place, scene, say);
+  if (const std::optional<device::HaplyAddress> address = parse_haply(device))
+    return device::open_haply(*address, scene, watchdog, say);
   throw usage_error(
-      fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, osc:PORT or "
-                  "osc:HOST:PORT; `wholehand devices` lists what is there",
+      fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, haply, "
+                  "haply:PORT, osc:PORT or osc:HOST:PORT; `wholehand devices` lists what is there",
                   in_quotes(device)));
 }
 

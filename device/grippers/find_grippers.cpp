@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/grippers/find_grippers.h"
 
+#include "device/grippers/haply_service.h"
 #include "device/grippers/hid_gripper.h"
 #include "device/grippers/omega_gripper.h"
 #include "device/grippers/usb_gripper.h"
@@ -30,6 +31,7 @@ std::vector<GripperFound> find_grippers(const std::string& dhd_library) {
   append(all, or_missing(find_hid_grippers(), "hid", "no HID device speaks the open gripper protocol"));
   append(all, or_missing(find_usb_grippers(), "usb", "no USB device has an interface of the open gripper protocol"));
   append(all, find_omega_grippers(dhd_library));
+  append(all, find_haply_grippers());
   return all;
 }
 

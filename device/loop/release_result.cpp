@@ -15,7 +15,7 @@ void add_last(SafeLine& line, const ForceSize& last, double watchdog) noexcept {
   if (watchdog > 0)
     line.add("; the device's own watchdog takes it away within ").add(watchdog * 1e3, 3).add(" ms");
   else if (watchdog == UNKNOWN_WATCHDOG)
-    line.add("; the hand must let go by itself");
+    line.add("; the device or hand must let go by itself");
   else
     line.add("; the device has no watchdog, so switch it off");
 }

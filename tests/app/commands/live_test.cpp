@@ -51,6 +51,17 @@ TEST(OpenGripper, RefusesOtherNames) {
                            "omega:",
                            "omega:x",
                            "omega:65536",
+                           "haply:",
+                           "haply:x",
+                           "haply:0",
+                           "haply:65536",
+                           "haply::10001",
+                           "haplya",
+                           "haply/",
+                           "haply/a,",
+                           "haply/,b",
+                           "haply/a,b,c",
+                           "haply:10001/a b",
                            "replay",
                            "osc",
                            "osc:",
@@ -354,6 +365,8 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
                  "--device 'osc:9000x': its port is not a whole number from 0 to 65535; allowed: osc:PORT, or osc:HOST:PORT");
   expect_refused("--no-clock --device osc:0", 2, "--no-clock");
   expect_refused("--device osc:192.0.2.7:9000", 3, "osc:192.0.2.7:9000: this machine cannot listen there");
+  expect_refused("--device haply:10001x", 2, "--device 'haply:10001x': its port is not a whole number from 1 to 65535; allowed: haply, ");
+  expect_refused("--device haply:1", 3, "haply:1: no Inverse Service answers there (Connection refused); start it ");
   // a session that would hear itself
   for (const char* arguments :
        {"--device osc:9000 --stream osc://127.0.0.1:9000", "--device osc:9000 --stream osc://localhost:9000",

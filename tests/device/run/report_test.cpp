@@ -89,7 +89,7 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
             "fingers; the device's own watchdog takes it away within 31.875 ms");
   EXPECT_EQ(fault_line(report, guard, live, UNKNOWN_WATCHDOG),
             "live: the session ended after 2.004 s; zero force could not be written (unplugged); the last force was 2.38 N at the "
-            "arm and 0 N at the fingers; the hand must let go by itself");
+            "arm and 0 N at the fingers; the device or hand must let go by itself");
   report.force = {};
   EXPECT_EQ(fault_line(report, guard, live, 0.02),
             "live: the session ended after 2.004 s; zero force could not be written (unplugged); the last force was zero");

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "device/grippers/haply_exchange.h"
+
+#include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <exception>
+
+#include "base/system/block_signals.h"
+#include "base/system/clock.h"
+#include "device/loop/panic.h"
+#include "device/loop/realtime.h"
+
+namespace wholehand::device {
+namespace {
+
+constexpr double SEND_PATIENCE = 0.1;     // s: a service that reads nothing for so long is gone
+constexpr double GOODBYE_PATIENCE = 0.1;  // s
+constexpr double IDLE_PAUSE = 0.1;        // s between two looks for a ping on the idle connection
+constexpr double ANSWER_PATIENCE = 5e-3;  // s: a quarter of the watchdog, so that a silent service still gets zero force in time
+constexpr int MOST_SURPLUS = 200;         // a flood hides which message is an answer, and so what became of a force
+constexpr int MOST_AT_ONCE = 1000;        // messages read at once: a flood must not keep the force from going out
+constexpr long LOOK_NS = 200'000;         // between two looks for an answer in a signal handler
+
+int milliseconds(double seconds) { return static_cast<int>(std::ceil(std::max(seconds, 0.0) * 1e3)); }
+
+}  // namespace
+
+HaplyExchange::HaplyExchange(std::unique_ptr<HaplySocket> socket, std::unique_ptr<HaplySocket> idle, const haply::Devices& devices,
+                             const haply::Version& version, double watchdog)
+    : socket_(std::move(socket)),
+      idle_(std::move(idle)),
+      devices_(devices),
+      version_(version),
+      watchdog_(watchdog),
+      zero_(write_forces(devices, {}, version)),
+      zero_frame_(haply::masked_frame(zero_)),
+      idle_descriptor_(idle_ ? idle_->descriptor() : -1),
+      arrived_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+  const BlockSignals inherited;
+  thread_ = std::thread([this] { run(); });
+}
+
+HaplyExchange::~HaplyExchange() {
+  stop();
+  close(arrived_);
+}
+
+bool HaplyExchange::take(haply::Measurement& into, double patience) noexcept {
+  const double end = monotonic_now() + patience;
+  for (;;) {
+    std::uint64_t count = 0;
+    const ssize_t got = ::read(arrived_, &count, sizeof count);  // before the look, so that what arrives after it ends the wait
+    static_cast<void>(got);
+    if (measured_.take(into)) return true;
+    const double left = end - monotonic_now();
+    if (left <= 0 || !is_open_.load()) return false;
+    pollfd arrival{arrived_, POLLIN, 0};
+    poll(&arrival, 1, milliseconds(left));
+  }
+}
+
+void HaplyExchange::put(const std::array<Triple, 2>& forces) noexcept {
+  last_put_.store(++put_number_);
+  put_.put({forces, put_number_, monotonic_now()});
+}
+
+bool HaplyExchange::drop(bool for_good, double patience) noexcept {
+  const std::uint64_t dropped = for_good ? ALL : last_put_.load();
+  std::uint64_t before = dropped_.load();
+  while (before < dropped && !dropped_.compare_exchange_weak(before, dropped)) {
+  }
+  const std::uint64_t zeros = zeros_.load();
+  const double end = monotonic_now() + patience;
+  const timespec pause{0, LOOK_NS};
+  while (zeros_.load() == zeros) {
+    if (!is_open_.load() || monotonic_now() >= end) return false;
+    nanosleep(&pause, nullptr);
+  }
+  return true;
+}
+
+// drop() does nothing that a signal handler may not. If the thread that speaks is the one that failed, it does not answer.
+bool HaplyExchange::panic(double patience) noexcept {
+  bool is_taken = false;
+  if (const int idle = idle_descriptor_.load(); idle >= 0) {
+    const ssize_t sent = ::send(idle, zero_frame_.data(), zero_frame_.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    is_taken = sent == static_cast<ssize_t>(zero_frame_.size());
+  }
+  return drop(true, patience) || is_taken;
+}
+
+void HaplyExchange::stop() noexcept {
+  dropped_ = ALL;
+  is_over_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+bool HaplyExchange::wants_zero(const Put& newest) const noexcept {
+  return newest.number <= dropped_.load() || is_releasing() || monotonic_now() - newest.moment > watchdog_;
+}
+
+void HaplyExchange::run() noexcept {
+  pthread_setname_np(pthread_self(), "haply");
+  outrank_realtime();
+  const double period = 1 / HAPLY_RATE;
+  try {
+    double due = monotonic_now();
+    while (!is_over_.load() && exchange()) {
+      tend_idle();
+      due = std::max(due + period, monotonic_now());
+      pause_for(due - monotonic_now());
+    }
+  } catch (const std::exception&) {
+    ending_ = "no memory";
+  }
+  socket_->send(zero_, SEND_PATIENCE);
+  idle_descriptor_ = -1;  // before: a signal handler must not use a number that was given back
+  socket_->close(GOODBYE_PATIENCE);
+  if (idle_) idle_->close(GOODBYE_PATIENCE);
+  is_open_ = false;
+  eventfd_write(arrived_, 1);
+}
+
+// One message and its answer. A service that does not answer gets the next message all the same, because it may be zero force. False: the connection
+// is over.
+bool HaplyExchange::exchange() {
+  put_.take(newest_);
+  const bool is_zero = wants_zero(newest_);
+  if (!socket_->send(is_zero ? zero_ : write_forces(devices_, newest_.forces, version_), SEND_PATIENCE)) return false;
+  ++owed_;
+  // all answers that are due, so that a late one does not leave each later state one message old; and what comes unasked
+  const double end = monotonic_now() + ANSWER_PATIENCE;
+  HaplySocket::Got got = HaplySocket::Got::nothing;
+  int count = 0;
+  for (; count < MOST_AT_ONCE; ++count) {
+    got = socket_->receive(next_, owed_ > 0 ? end - monotonic_now() : 0);
+    if (got != HaplySocket::Got::message) break;
+    text_.swap(next_);
+    if (owed_ > 0) {
+      --owed_;
+      surplus_ = std::max(surplus_ - 1, 0);
+    } else {
+      ++unasked_count_;
+      ++surplus_;
+    }
+  }
+  if (surplus_ > MOST_SURPLUS) {
+    ending_ = "the service sends more than it is asked for";
+    return false;
+  }
+  if (got == HaplySocket::Got::closed) return false;
+  if (count == 0) return true;
+  if (is_zero && owed_ == 0) ++zeros_;
+  read();
+  return true;
+}
+
+void HaplyExchange::read() {
+  haply::Measurement measurement;
+  const char* const wrong = haply::read_measurement(text_, devices_, measurement);
+  wrong_ = wrong ? wrong : "";
+  if (wrong) {
+    ++wrong_count_;
+    return;
+  }
+  measured_.put(measurement);
+  eventfd_write(arrived_, 1);
+}
+
+// Answers a ping there, which only a reader does, and discards what comes.
+void HaplyExchange::tend_idle() {
+  if (idle_descriptor_ < 0 || monotonic_now() - tended_ < IDLE_PAUSE) return;
+  tended_ = monotonic_now();
+  if (idle_->receive(next_, 0) == HaplySocket::Got::closed) idle_descriptor_ = -1;
+}
+
+}  // namespace wholehand::device

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// A gripper of Haply's devices, open and calibrated on the stand-in for their service.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/system/clock.h"
+#include "device/grippers/haply_gripper.h"
+#include "tests/stand_in/haply_service.h"
+#include "tests/support/live_script.h"
+
+namespace wholehand {
+
+constexpr double LONG_WATCHDOG = 60;  // s: no force is dropped for want of a write
+
+// Where the devices are calibrated, each in its own frame (Haply's).
+inline stand_in::HaplyMotion haply_origin() {
+  stand_in::HaplyMotion motion;
+  motion.cursors[0] = {-0.1, 0.2, 0.1};
+  motion.cursors[1] = {0.3, 0.1, 0.05};
+  return motion;
+}
+
+// From there: each device by its own way.
+inline stand_in::HaplyMotion haply_moved(const Triple& first, const Triple& second = {}) {
+  stand_in::HaplyMotion motion = haply_origin();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    motion.cursors[0][axis] += first[axis];
+    motion.cursors[1][axis] += second[axis];
+  }
+  return motion;
+}
+
+// Moves with the first states that are asked for, and rests from then on: no clock decides what a client sees of it.
+inline std::function<stand_in::HaplyMotion(double)> haply_greeting() {
+  constexpr double WAY = 0.03;  // m
+  return [count = 0](double) mutable {
+    ++count;
+    return count < 20 ? haply_moved({WAY * count / 20, 0, 0}, {0, WAY * count / 20, 0}) : haply_origin();
+  };
+}
+
+inline constexpr device::HaplyCalibration QUICK_CALIBRATION{10e-3, 10e-3, 1e-3, 30};
+
+struct HaplyRig {
+  explicit HaplyRig(const stand_in::HaplyOptions& options = {}, double watchdog = LONG_WATCHDOG,
+                    const Scene& rig_scene = live_scene())
+      : scene(rig_scene), service(options) {
+    setenv("WHOLEHAND_LOCK_DIR", testing::TempDir().c_str(), 1);
+    service.move(haply_greeting());
+    gripper = device::open_haply(
+        address(), scene, watchdog, [this](const std::string& line) { said.push_back(line); }, QUICK_CALIBRATION);
+  }
+
+  device::HaplyAddress address() const { return {{"127.0.0.1", service.port()}, {}}; }
+  std::string place() const { return "haply:" + std::to_string(service.port()); }
+  device::ReadOutcome read() { return gripper->read(state, tick++); }
+  // Reads tick after tick until it holds. On a busy machine the service may be slow, so that silence is no end.
+  bool reads_until(const std::function<bool()>& holds) {
+    const double end = monotonic_now() + 60;
+    while (monotonic_now() < end)
+      if (read() == device::ReadOutcome::value && holds()) return true;
+    return false;
+  }
+  // Reads until one fails.
+  device::ReadOutcome first_failure(device::ReadOutcome wanted) {
+    const double end = monotonic_now() + 60;
+    device::ReadOutcome outcome = device::ReadOutcome::value;
+    while (monotonic_now() < end && outcome != wanted) outcome = read();
+    return outcome;
+  }
+  // Writes until the service has it on this device, N in Haply's frame; forces are sent with six decimals.
+  bool arrives(const device::GripperForce& force, std::size_t arm, const Triple& wanted) {
+    return service.wait([&] {
+      gripper->write(force);
+      return distance(service.force(arm), wanted) < 1e-6;
+    });
+  }
+  bool has_zero() const {
+    return service.wait([this] { return !service.has_force(); });
+  }
+
+  Scene scene;
+  std::vector<std::string> said;
+  stand_in::HaplyService service;
+  std::unique_ptr<device::Gripper> gripper;
+  device::GripperState state;
+  std::int64_t tick = 0;
+};
+
+}  // namespace wholehand
