@@ -108,7 +108,7 @@ bool HaplyExchange::wants_zero(const Put& newest) const noexcept {
 
 void HaplyExchange::run() noexcept {
   pthread_setname_np(pthread_self(), "haply");
-  outrank_realtime();
+  assist_realtime();
   const double period = 1 / HAPLY_RATE;
   try {
     double due = monotonic_now();

@@ -19,6 +19,12 @@ namespace {
 constexpr int PRIORITY = 80;              // of 1..99: above interrupt threads' 50
 constexpr std::size_t STACK = 64 * 1024;  // bytes that a tick may need
 
+void set_priority(int priority) noexcept {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+}
+
 // Touches the stack so that the first deep call faults no pages in.
 void touch_stack() {
   char stack[STACK];
@@ -35,11 +41,9 @@ void keep_awake() {
 
 }  // namespace
 
-void outrank_realtime() noexcept {
-  sched_param parameters{};
-  parameters.sched_priority = PRIORITY + 1;
-  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
-}
+void outrank_realtime() noexcept { set_priority(PRIORITY + 1); }
+
+void assist_realtime() noexcept { set_priority(PRIORITY - 1); }
 
 std::vector<std::string> make_realtime() {
   std::vector<std::string> notes;

@@ -14,4 +14,7 @@ std::vector<std::string> make_realtime();
 // Gives the calling thread a higher priority than that, if permitted: for a watching thread that mostly sleeps.
 void outrank_realtime() noexcept;
 
+// Gives the calling thread a lower priority than that, if permitted: for a thread that works for the loop and must not delay it.
+void assist_realtime() noexcept;
+
 }  // namespace wholehand::device
