@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -38,12 +40,14 @@ inline stand_in::HaplyMotion haply_moved(const Triple& first, const Triple& seco
   return motion;
 }
 
-// Moves with the first states that are asked for, and rests from then on: no clock decides what a client sees of it.
-inline std::function<stand_in::HaplyMotion(double)> haply_greeting() {
-  constexpr double WAY = 0.03;  // m
-  return [count = 0](double) mutable {
-    ++count;
-    return count < 20 ? haply_moved({WAY * count / 20, 0, 0}, {0, WAY * count / 20, 0}) : haply_origin();
+// Comes to the origin, rests there, and comes again, until `is_over`: a client that was too slow to see it once sees it again, and no two states of
+// the way are so near that a client could take them for a rest.
+inline std::function<stand_in::HaplyMotion(double)> haply_greeting(const std::atomic<bool>& is_over) {
+  constexpr int STATES = 200;    // of the way, and of the rest
+  constexpr double STEP = 3e-3;  // m
+  return [&is_over, count = 0](double) mutable {
+    const double left = is_over ? 0 : STEP * std::max(STATES - count++ % (2 * STATES), 0);
+    return haply_moved({left, 0, 0}, {0, left, 0});
   };
 }
 
@@ -54,9 +58,10 @@ struct HaplyRig {
                     const Scene& rig_scene = live_scene())
       : scene(rig_scene), service(options) {
     setenv("WHOLEHAND_LOCK_DIR", testing::TempDir().c_str(), 1);
-    service.move(haply_greeting());
+    service.move(haply_greeting(is_calibrated));
     gripper = device::open_haply(
         address(), scene, watchdog, [this](const std::string& line) { said.push_back(line); }, QUICK_CALIBRATION);
+    is_calibrated = true;
   }
 
   device::HaplyAddress address() const { return {{"127.0.0.1", service.port()}, {}}; }
@@ -89,6 +94,7 @@ struct HaplyRig {
 
   Scene scene;
   std::vector<std::string> said;
+  std::atomic<bool> is_calibrated{false};
   stand_in::HaplyService service;
   std::unique_ptr<device::Gripper> gripper;
   device::GripperState state;

@@ -132,8 +132,9 @@ TEST(HaplyGripper, TheGripIsTurnedFromWhereItWasCalibrated) {
   HaplyOptions options = with_grip();
   const Scene scene = live_scene();
   stand_in::HaplyService service(options);
-  service.move([count = 0](double) mutable {
-    HaplyMotion motion = haply_moved({++count < 20 ? 1e-3 * count : 0, 0, 0});
+  static const std::atomic<bool> is_over{false};  // beyond the service's threads
+  service.move([greeting = haply_greeting(is_over)](double time) {
+    HaplyMotion motion = greeting(time);
     motion.orientation = {0.5, 0.5, 0.5, 0.5};
     return motion;
   });

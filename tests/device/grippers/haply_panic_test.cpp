@@ -36,7 +36,8 @@ bool kill_thread(const std::string& name, int signal) {
 
 // Writes a force in a child until the service has it, and then fails.
 PanicOutcome fail_with_force(stand_in::HaplyService& service, const std::function<void()>& fail) {
-  service.move(haply_greeting());
+  static const std::atomic<bool> is_over{false};  // beyond the service's threads
+  service.move(haply_greeting(is_over));
   const SharedPanicLog log;
   std::thread watching([&] {
     if (service.wait([&] { return service.has_force(); })) ++log->writes;
