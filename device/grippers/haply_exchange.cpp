@@ -86,14 +86,19 @@ bool HaplyExchange::drop(bool for_good, double patience) noexcept {
   return true;
 }
 
-// drop() does nothing that a signal handler may not. If the thread that speaks is the one that failed, it does not answer.
+// drop() does nothing that a signal handler may not. If the thread that speaks is the one that failed, it does not answer; then its last message may
+// still lie in the service when the first zero force comes there by the idle connection, so that goes repeatedly.
 bool HaplyExchange::panic(double patience) noexcept {
+  constexpr int TIMES = 10;
   bool is_taken = false;
-  if (const int idle = idle_descriptor_.load(); idle >= 0) {
-    const ssize_t sent = ::send(idle, zero_frame_.data(), zero_frame_.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-    is_taken = sent == static_cast<ssize_t>(zero_frame_.size());
+  for (int k = 0; k < TIMES; ++k) {
+    if (const int idle = idle_descriptor_.load(); idle >= 0) {
+      const ssize_t sent = ::send(idle, zero_frame_.data(), zero_frame_.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+      is_taken = sent == static_cast<ssize_t>(zero_frame_.size());
+    }
+    if (drop(true, patience / TIMES)) return true;
   }
-  return drop(true, patience) || is_taken;
+  return is_taken;
 }
 
 void HaplyExchange::stop() noexcept {

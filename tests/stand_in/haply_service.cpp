@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
@@ -47,6 +48,7 @@ struct HaplyService::Connection {
   asio::io_context context{1};
   beast::websocket::stream<tcp::socket, false> stream{context};
   int descriptor = -1;
+  std::int64_t messages = 0;
   std::thread thread;
 };
 
@@ -119,6 +121,13 @@ void HaplyService::push(const Vector& force) {
   forces_[0] = force;
 }
 
+std::int64_t HaplyService::other_messages() const {
+  const std::lock_guard lock(mutex_);
+  std::int64_t most = 0;
+  for (const auto& connection : connections_) most = std::max(most, connection->messages);
+  return messages_ - most;
+}
+
 bool HaplyService::wait(const std::function<bool()>& holds) const {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!holds()) {
@@ -177,7 +186,7 @@ void HaplyService::serve(Connection& connection) {
     for (;;) {
       beast::flat_buffer message;
       stream.read(message);
-      take(std::string(static_cast<const char*>(message.data().data()), message.size()));
+      take(std::string(static_cast<const char*>(message.data().data()), message.size()), connection);
       if (!answer(connection)) break;
     }
   } catch (const std::exception&) {
@@ -188,10 +197,11 @@ void HaplyService::serve(Connection& connection) {
   changed_.notify_all();
 }
 
-void HaplyService::take(const std::string& text) {
+void HaplyService::take(const std::string& text, Connection& connection) {
   const json message = json::parse(text, nullptr, false);
   const std::lock_guard lock(mutex_);
   ++messages_;
+  ++connection.messages;
   const char* const key = takes_vectors(options_.version) ? "vector" : "values";
   if (message.is_object() && message.contains("inverse3")) {
     for (const json& device : message["inverse3"]) {

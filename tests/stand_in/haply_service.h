@@ -69,6 +69,8 @@ class HaplyService {
   bool has_force() const;
   std::size_t clients() const;
   std::int64_t messages() const;
+  // Messages of all clients but the one that has sent the most, which is the one that speaks.
+  std::int64_t other_messages() const;
   // A message of another client: what a second program would do with the first device.
   void push(const Vector& force);
   // Waits until it holds, a minute at most. Called again with each message.
@@ -78,7 +80,7 @@ class HaplyService {
   struct Connection;
   void accept();
   void serve(Connection& connection);
-  void take(const std::string& text);
+  void take(const std::string& text, Connection& connection);
   std::string state(bool is_inventory);
   bool answer(Connection& connection);
 

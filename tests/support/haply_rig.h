@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -55,12 +56,12 @@ inline constexpr device::HaplyCalibration QUICK_CALIBRATION{10e-3, 10e-3, 1e-3, 
 
 struct HaplyRig {
   explicit HaplyRig(const stand_in::HaplyOptions& options = {}, double watchdog = LONG_WATCHDOG,
-                    const Scene& rig_scene = live_scene())
+                    const Scene& rig_scene = live_scene(), const std::array<std::string, 2>& arms = {})
       : scene(rig_scene), service(options) {
     setenv("WHOLEHAND_LOCK_DIR", testing::TempDir().c_str(), 1);
     service.move(haply_greeting(is_calibrated));
     gripper = device::open_haply(
-        address(), scene, watchdog, [this](const std::string& line) { said.push_back(line); }, QUICK_CALIBRATION);
+        {address().at, arms}, scene, watchdog, [this](const std::string& line) { said.push_back(line); }, QUICK_CALIBRATION);
     is_calibrated = true;
   }
 

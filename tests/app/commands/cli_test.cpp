@@ -234,7 +234,8 @@ TEST(CommandUsage, ListsDevicesAndGrippers) {
                            "core  the reference, double precision, all threads  <- --on core\n",
                            "\nsim  a virtual user, always there  <- --device sim\n",
                            "\nomega  omega.7, right hand, serial 4001  <- --device omega\n"
-                           "  up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4,000 Hz; SDK 3.17.6"}) {
+                           "  up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4,000 Hz; SDK 3.17.6",
+                           "\nhaply  "}) {
     const std::size_t at = listed.output.find(line, last);
     ASSERT_NE(at, std::string::npos) << listed.output << "lacks, or has elsewhere: " << line;
     last = at;

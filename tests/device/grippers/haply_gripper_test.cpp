@@ -168,15 +168,16 @@ TEST(HaplyGripper, SilenceIsATimeoutAndEndsTheForce) {
 }
 
 TEST(HaplyGripper, AMessageThatIsNoStateIsNone) {
-  for (const auto& [fault, words] :
+  for (const auto& sample :
        std::vector<std::pair<HaplyFault, const char*>>{{HaplyFault::no_json, "a message that is not a JSON object"},
                                                        {HaplyFault::no_number, "a message that is not a JSON object"},
                                                        {HaplyFault::no_finite, "a message that is not a JSON object"},
                                                        {HaplyFault::no_state, "a state without the first Inverse3"},
                                                        {HaplyFault::vanished, "a state without the right Inverse3"}}) {
+    const char* const words = sample.second;
     HaplyRig rig({}, 20e-3);
     ASSERT_TRUE(rig.arrives({{2, 0, 0}, 0}, 0, {1, 0, 0}));
-    rig.service.misbehave(fault);
+    rig.service.misbehave(sample.first);
     ASSERT_TRUE(rig.service.wait([&] {
       return rig.read() == ReadOutcome::timeout && std::string(rig.gripper->last_error()) == words;
     })) << words;

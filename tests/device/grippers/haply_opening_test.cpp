@@ -104,6 +104,28 @@ TEST(HaplyOpening, TwoDevicesOfOneSideMustBeNamed) {
                  "first: PLACE/0A01,0A02");
 }
 
+// The address that a refusal offers.
+TEST(HaplyOpening, TwoDevicesOfOneSideAreOpenedByName) {
+  HaplyRig rig(with({"right", "right"}), LONG_WATCHDOG, live_scene(), {"0A02", "0A01"});
+  EXPECT_EQ(rig.gripper->limits().address, rig.place() + "/0A02,0A01");
+  // the left one is the second in the service's list: 30 mm to the left
+  rig.service.rest_at(haply_moved({0, 0, 0}, {-0.03, 0, 0}));
+  EXPECT_TRUE(rig.reads_until([&] { return std::abs(rig.state.gap - 0.03) < 1e-12; }));
+  EXPECT_NEAR(rig.state.position[0], -0.015, 1e-12);
+}
+
+TEST(HaplyOpening, OneServiceServesOneSession) {
+  const HaplyRig rig;
+  try {
+    open_haply(
+        rig.address(), rig.scene, LONG_WATCHDOG, [](const std::string&) {}, QUICK_CALIBRATION);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::failure);
+    EXPECT_NE(std::string(error.what()).find("haply-" + std::to_string(rig.service.port())), std::string::npos) << error.what();
+  }
+}
+
 TEST(HaplyOpening, NamesAreChosenBeforeSides) {
   const haply::Inventory all{{{"A", "right"}, {"B", "left"}, {"C", "left"}}, {"G"}, false};
   const auto arms_of = [&](const std::array<std::string, 2>& arms) { return choose_haply_devices(all, {{}, arms}).arms; };
