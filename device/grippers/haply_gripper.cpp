@@ -85,6 +85,7 @@ class HaplyGripper final : public Gripper {
     limits_.address = fmt::format("{}/{}{}{}", place_, devices.arms[0], has_two_ ? "," : "", devices.arms[1]);
     limits_.force = has_two_ ? TWO_TIPS_FORCE : INVERSE3_FORCE;
     limits_.grip = has_two_ ? TWO_TIPS_GRIP : 0;
+    limits_.pushes_each_tip = has_two_;
     limits_.gap = {0, opening_of(scene.hand)};
     limits_.rate = HAPLY_RATE;
     limits_.is_left_handed = scene.hand.handedness == Handedness::left;
@@ -212,7 +213,7 @@ bool HaplyGripper::write(const GripperForce& force) noexcept {
   if (is_number && has_two_)
     tips = tip_forces(force, line_.direction(), INVERSE3_FORCE);
   else if (is_number)
-    tips[0] = tip_forces({{2 * force.arm[0], 2 * force.arm[1], 2 * force.arm[2]}, 0}, line_.direction(), INVERSE3_FORCE)[0];
+    tips[0] = tip_forces({{2 * force.arm[0], 2 * force.arm[1], 2 * force.arm[2]}, 0, {}}, line_.direction(), INVERSE3_FORCE)[0];
   for (Triple& tip : tips) tip = haply::to_haply(tip);
   exchange_.put(tips);
   if (!is_number) last_error_ = "a force that is NaN or infinite";

@@ -44,7 +44,7 @@ Rotation rotation_along(const Triple& direction, const Rotation& previous) noexc
 std::array<Triple, 2> tip_forces(const GripperForce& force, const Triple& direction, double most) noexcept {
   std::array<Triple, 2> tips{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const double apart = force.grip * direction[k];
+    const double apart = force.grip * direction[k] + force.across[k];
     tips[0][k] = force.arm[k] / 2 - apart;
     tips[1][k] = force.arm[k] / 2 + apart;
   }

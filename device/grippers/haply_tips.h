@@ -28,8 +28,7 @@ class ClosingLine {
 // rotation is `previous`.
 Rotation rotation_along(const Triple& direction, const Rotation& previous) noexcept;
 
-// Forces on the left and the right tip, N: half the arm's each, and the grip's apart along the unit vector from left to right. One that is larger than
-// `most` is scaled down to it.
+// Forces on the left and the right tip, N, by the unit vector from left to right (see GripperForce). One that is larger than `most` is scaled down to it.
 std::array<Triple, 2> tip_forces(const GripperForce& force, const Triple& direction, double most) noexcept;
 
 }  // namespace wholehand::device

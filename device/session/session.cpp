@@ -243,8 +243,8 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   state_ = turning(tick.tilt);
   note_delivery(vessel.place);
   fill_held(vessel, load.mass, held, tick);
-  tick.wanted.across = workspace_.across_to_device(weight_across(vessel, held.center, pose.rotation[0], tick.weight));
   const bool keeps_contact = !live_->scene.live.slide || slide(pose, lifted_share(vessel), load, held, seconds, tick);
+  tick.wanted.across = workspace_.across_to_device(carried_across(pose, held.center, workspace_.to_world(tick.wanted.arm)));
   // an open hand lets go in this very tick: nothing of the vessel is felt any more
   if (is_open(device_gap) || !keeps_contact) leave(vessel);
   if (is_returning(state_)) {
@@ -316,12 +316,12 @@ void Session::fill_held(const Stance& vessel, double mass, const core_f64::HeldF
   fill_vessel(vessel, tick);
 }
 
-// Half the difference of what the two contacts carry across the line of the tips: it balances the weight's torque about their middle, apart from the
-// part along the line, which torsion carries.
-Vec3 Session::weight_across(const Stance& vessel, Vec3 center, Vec3 line, double weight) const noexcept {
-  const Vec3 thumb = vessel.outward(grasp_.proxies[0]), index = vessel.outward(grasp_.proxies[1]);
-  const Vec3 torque = glm::cross(vessel.outward(center) - 0.5 * (thumb + index), Vec3(0, -weight, 0));
-  return glm::cross(torque, line) / glm::length(index - thumb);
+// Half the difference of what the two contacts carry across the line of the tips: it balances the torque of what acts at the center about their middle,
+// apart from the part along the line, which torsion carries.
+Vec3 Session::carried_across(const HandPose& pose, Vec3 center, Vec3 carried) const noexcept {
+  const Vec3 middle = 0.5 * (grasp_.proxies[0] + grasp_.proxies[1]);
+  const Vec3 torque = glm::cross(pose.rotation * (grasp_.turn * (center - middle)), carried);
+  return glm::cross(torque, pose.rotation[0]) / glm::length(grasp_.proxies[1] - grasp_.proxies[0]);
 }
 
 bool Session::is_open(double device_gap) const noexcept {

@@ -88,7 +88,7 @@ class Session {
   bool is_at_destination(core_f64::Vec3 place) const noexcept;
   void note_delivery(core_f64::Vec3 place) noexcept;
   void fill_held(const Stance& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
-  core_f64::Vec3 weight_across(const Stance& vessel, core_f64::Vec3 center, core_f64::Vec3 line, double weight) const noexcept;
+  core_f64::Vec3 carried_across(const HandPose& pose, core_f64::Vec3 center, core_f64::Vec3 carried) const noexcept;
   double lifted_share(const Stance& vessel) const noexcept;
   bool is_open(double device_gap) const noexcept;
   SessionState turning(double tilt) noexcept;

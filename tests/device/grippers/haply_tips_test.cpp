@@ -65,10 +65,12 @@ TEST(HaplyTips, TipsThatTouchTurnNothing) {
 
 TEST(HaplyTips, AForceIsSharedAndAGripIsOpposite) {
   const Triple along = unit({1, 2, 2});
-  const auto tips = tip_forces({{1, -2, 3}, 1.5}, along, 10);
+  const Triple across{0.5, -0.25, 0.125};
+  const auto tips = tip_forces({{1, -2, 3}, 1.5, across}, along, 10);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(tips[0][axis] + tips[1][axis], (Triple{1, -2, 3})[axis], 1e-15);
-    EXPECT_NEAR((tips[1][axis] - tips[0][axis]) / 2, 1.5 * along[axis], 1e-15) << "a positive grip pushes the tips apart";
+    EXPECT_NEAR((tips[1][axis] - tips[0][axis]) / 2, 1.5 * along[axis] + across[axis], 1e-15)
+        << "a positive grip pushes the tips apart";
   }
 }
 
