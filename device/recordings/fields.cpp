@@ -22,6 +22,7 @@ const std::array<const char*, 2> YES_NO_NAMES{"no", "yes"};
 
 constexpr const char* NOT_SAID = "";
 constexpr const char* NONE_IS_NAN = "NaN: there is none";
+constexpr const char* TURN_COUNTS = "a turn counts at the radius of the torsional friction";
 constexpr const char* BITS_OF_JOINTS = "bit j: joint j; thumb 0 to 3, then five each for index, middle, ring and little finger";
 constexpr const char* BITS_OF_FINGERS = "bit f: finger f; 0 thumb, 1 index, 2 middle, 3 ring, 4 little";
 
@@ -120,12 +121,12 @@ std::vector<RecordedField> make_recorded_fields() {
                offsetof(Tick, user_force)),
       real_one("safety_margin", "N", "the user's grip force less the force that holding takes now",
                "without [live] slide NaN; minus infinity where not antipodal", offsetof(Tick, safety_margin)),
-      real_one("slip_distance", "m", "way of the contacts along the surface since the grasp", NOT_SAID,
+      real_one("slip_distance", "m", "way of the contacts along the surface since the grasp", TURN_COUNTS,
                offsetof(Tick, slip_distance)),
       real_one("slip_angle", "rad", "turn of the vessel in the fingers since the grasp",
                "right-handed about the line from the thumb to the index finger of a right hand, left-handed of a left hand",
                offsetof(Tick, slip_angle)),
-      real_one("slip_speed", "m s-1", "speed of the contacts along the surface", NOT_SAID, offsetof(Tick, slip_speed)),
+      real_one("slip_speed", "m s-1", "speed of the contacts along the surface", TURN_COUNTS, offsetof(Tick, slip_speed)),
       reals("wanted_arm_force", "N", "force of the method at the arm, device frame", NOT_SAID, "xyz", offsetof(Tick, wanted.arm)),
       real_one("wanted_gripper_force", "N", "force of the method on each finger", "positive opens", offsetof(Tick, wanted.grip)),
       reals("wanted_across_force", "N", "force of the method across the closing line, device frame",

@@ -116,7 +116,7 @@ SlideStep slide_step(const SlidingBody& given, Vec2 load, const SlideFriction& f
   SlideStep sum;
   SlidingBody body = given;
   const int steps = std::clamp(static_cast<int>(std::ceil(seconds / LONGEST_SLIDE)), 1, MOST_STEPS);
-  const double h = seconds / steps;
+  const double h = seconds / steps, radius = friction.force > 0 ? friction.moment / friction.force : 0;
   for (int step = 0; step < steps; ++step) {
     if (motion.is_rest() && friction_share(body, load, friction) <= 1) break;
     const Vec2 pushed = motion.velocity + h / body.mass * load;
@@ -127,7 +127,7 @@ SlideStep slide_step(const SlidingBody& given, Vec2 load, const SlideFriction& f
     motion = {after.velocity, after.spin};
     sum.moved += h * after.velocity;
     sum.turned += h * after.spin;
-    sum.slipped += h * glm::length(after.slip);
+    sum.slipped += h * std::hypot(after.slip.x, after.slip.y, radius * after.spin);
     body.lever += h * after.velocity;
   }
   return sum;

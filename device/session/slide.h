@@ -33,7 +33,9 @@ struct SlideMotion {
 struct SlideStep {
   core_f64::Vec2 moved{};  // m
   double turned = 0;       // rad
-  double slipped = 0;      // m, of the contacts along the surface
+  // m: the way of the contacts along the surface, where a turn counts at the radius moment / force of the friction. So friction does the work
+  // force x slipped.
+  double slipped = 0;
 };
 
 // Friction of two tips that press with `grip` N each: half of the force `along` their line, N, weighs on one of them and leaves the other that much
@@ -48,7 +50,7 @@ double friction_share(const SlidingBody& body, core_f64::Vec2 load, const SlideF
 SlideStep slide_step(const SlidingBody& body, core_f64::Vec2 load, const SlideFriction& friction, double seconds,
                      SlideMotion& motion) noexcept;
 
-constexpr double LEAST_TORSION = 1e-6;     // m: below it a moment is numerically zero beside the force
+constexpr double LEAST_TORSION = 1e-8;     // m: a moment numerically zero beside the force
 constexpr double LONGEST_SLIDE = 0.25e-3;  // s: a longer step is divided
 
 }  // namespace wholehand::device

@@ -104,7 +104,7 @@ struct Tick {
   double normal_force = 0, opening_force = 0, feedback = 0;  // kernel 7
   double hold_force = NONE;                                  // physically required; infinite if the pinch is not antipodal
   double user_force = 0;  // the user's grip force: feedback less the torque's rise since the grasp
-  // Sliding in the fingers, with [live] slide: what the user's grip force exceeds the force by that holding takes now, N; the way of the contacts and
+  // Sliding in the fingers, with [live] slide: what the user's grip force exceeds the force by that holding takes now, N; the way of the contacts, where a turn counts at the soft finger's radius, and
   // the vessel's turn about the line of the tips since the grasp, m and rad (right-handed from thumb to index finger, for a left hand left-handed);
   // and the contacts' speed, m/s.
   double safety_margin = NONE, slip_distance = 0, slip_angle = 0, slip_speed = 0;

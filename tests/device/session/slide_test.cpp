@@ -186,6 +186,33 @@ TEST(Slide, EnergyNeverGrows) {
   }
 }
 
+// Friction does the work force x slipped, however the slip is divided between sliding and turning.
+TEST(Slide, FrictionDoesTheWorkOfItsForceAlongTheSlip) {
+  DrawnSlide draw(6);
+  constexpr double H = 1e-6, SECONDS = 0.01;  // s
+  int turned = 0;
+  for (int n = 0; n < 20; ++n) {
+    SlidingBody body = draw.body();
+    body.inertia = std::max(body.inertia, 1e-4);
+    const Vec2 load = draw.within(body.mass * G);
+    const SlideFriction friction = slide_friction(draw.between(0.5, 4), 0, MU, draw.between(5e-3, 2e-2));
+    SlideMotion motion = draw.motion();
+    const double before = kinetic(body, motion);
+    double worked = 0, slipped = 0, angle = 0;
+    for (double t = 0; t < SECONDS; t += H) {
+      const SlideStep step = slide_step(body, load, friction, H, motion);
+      body.lever += step.moved;
+      worked += glm::dot(load, step.moved);
+      slipped += step.slipped;
+      angle += step.turned;
+    }
+    turned += std::abs(angle) > 0.05;
+    // an implicit step loses m a^2 h^2 / 2 beyond that: 1e-3 of the work for accelerations of up to 1,000 m/s2 at 0.5 m/s
+    EXPECT_NEAR(before + worked - kinetic(body, motion), friction.force * slipped, 1e-3 * (before + friction.force * slipped)) << n;
+  }
+  EXPECT_GT(turned, 10);
+}
+
 // Maximal dissipation: no impulse within the limit does more against the slip that is left, so that v . (q - p) >= 0 for all of them.
 TEST(Slide, NoOtherFrictionTakesMoreEnergy) {
   DrawnSlide draw(4);
