@@ -213,7 +213,7 @@ bool HaplyGripper::write(const GripperForce& force) noexcept {
   if (is_number && has_two_)
     tips = tip_forces(force, line_.direction(), INVERSE3_FORCE);
   else if (is_number)
-    tips[0] = tip_forces({{2 * force.arm[0], 2 * force.arm[1], 2 * force.arm[2]}, 0, {}}, line_.direction(), INVERSE3_FORCE)[0];
+    tips[0] = capped(force.arm, INVERSE3_FORCE);
   for (Triple& tip : tips) tip = haply::to_haply(tip);
   exchange_.put(tips);
   if (!is_number) last_error_ = "a force that is NaN or infinite";

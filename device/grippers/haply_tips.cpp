@@ -41,6 +41,12 @@ Rotation rotation_along(const Triple& direction, const Rotation& previous) noexc
   return {x, -y, -z, y, x + z * z / scale, -y * z / scale, z, -y * z / scale, x + y * y / scale};
 }
 
+Triple capped(const Triple& force, double most) noexcept {
+  const double size = norm(force);
+  if (!(size > most)) return force;
+  return {force[0] * most / size, force[1] * most / size, force[2] * most / size};
+}
+
 std::array<Triple, 2> tip_forces(const GripperForce& force, const Triple& direction, double most) noexcept {
   std::array<Triple, 2> tips{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -48,12 +54,7 @@ std::array<Triple, 2> tip_forces(const GripperForce& force, const Triple& direct
     tips[0][k] = force.arm[k] / 2 - apart;
     tips[1][k] = force.arm[k] / 2 + apart;
   }
-  for (Triple& tip : tips) {
-    const double size = norm(tip);
-    if (size > most)
-      for (double& part : tip) part *= most / size;
-  }
-  return tips;
+  return {capped(tips[0], most), capped(tips[1], most)};
 }
 
 }  // namespace wholehand::device

@@ -28,7 +28,10 @@ class ClosingLine {
 // rotation is `previous`.
 Rotation rotation_along(const Triple& direction, const Rotation& previous) noexcept;
 
-// Forces on the left and the right tip, N, by the unit vector from left to right (see GripperForce). One that is larger than `most` is scaled down to it.
+// The force, or one of its direction that is not larger than `most`, N.
+Triple capped(const Triple& force, double most) noexcept;
+
+// Forces on the left and the right tip, N, by the unit vector from left to right (see GripperForce). Each is capped.
 std::array<Triple, 2> tip_forces(const GripperForce& force, const Triple& direction, double most) noexcept;
 
 }  // namespace wholehand::device

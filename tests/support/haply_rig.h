@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/system/clock.h"
+#include "core/vectors.h"
 #include "device/grippers/haply_gripper.h"
 #include "tests/stand_in/haply_service.h"
 #include "tests/support/live_script.h"
