@@ -46,7 +46,8 @@ void add_live_command(CLI::App& app, Action& action) {
   add("scene", options.scene, "SCENE",
       "Scene file or name of a shipped scene (default: mixing_board; for a replay: the recorded scene)");
   add("--device", options.device, "DEVICE",
-      "sim (the default), view (the page of --view), replay:FILE, hid[:PATH], usb[:VID:PID], omega[:N], haply, or osc:[HOST:]PORT for a "
+      "sim (the default), view (the page of --view), replay:FILE, hid[:PATH], usb[:VID:PID], omega[:N], haply, or osc:[HOST:]PORT "
+      "for a "
       "hand over the network; see wholehand devices and docs/devices.md")
       ->check(offered("sim view replay:.nc hid usb omega haply osc:"));
   add("--rate", arguments->rate, "HZ", "Rate of the force loop (default: the scene's)");

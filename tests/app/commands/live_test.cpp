@@ -365,7 +365,8 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
                  "--device 'osc:9000x': its port is not a whole number from 0 to 65535; allowed: osc:PORT, or osc:HOST:PORT");
   expect_refused("--no-clock --device osc:0", 2, "--no-clock");
   expect_refused("--device osc:192.0.2.7:9000", 3, "osc:192.0.2.7:9000: this machine cannot listen there");
-  expect_refused("--device haply:10001x", 2, "--device 'haply:10001x': its port is not a whole number from 1 to 65535; allowed: haply, ");
+  expect_refused("--device haply:10001x", 2,
+                 "--device 'haply:10001x': its port is not a whole number from 1 to 65535; allowed: haply, ");
   expect_refused("--device haply:1", 3, "haply:1: no Inverse Service answers there (Connection refused); start it ");
   // a session that would hear itself
   for (const char* arguments :
