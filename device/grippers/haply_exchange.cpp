@@ -20,9 +20,10 @@
 namespace wholehand::device {
 namespace {
 
-constexpr double SEND_PATIENCE = 0.1;     // s: a service that reads nothing for so long is gone
-constexpr double GOODBYE_PATIENCE = 0.1;  // s
-constexpr double IDLE_PAUSE = 0.1;        // s between two looks for a ping on the idle connection
+constexpr double SEND_PATIENCE = 0.1;                         // s: a service that reads nothing for so long is gone
+constexpr double GOODBYE_PATIENCE = 0.1;                      // s
+constexpr double QUIET_BEFORE = 200e-6, QUIET_AFTER = 30e-6;  // s, about a put(): as long as a message and its answer, and a step
+constexpr double IDLE_PAUSE = 0.1;                            // s between two looks for a ping on the idle connection
 constexpr double ANSWER_PATIENCE = 5e-3;  // s: a quarter of the watchdog, so that a silent service still gets zero force in time
 constexpr int MOST_SURPLUS = 200;         // a flood hides which message is an answer, and so what became of a force
 constexpr int MOST_AT_ONCE = 1000;        // messages read at once: a flood must not keep the force from going out
@@ -119,7 +120,7 @@ void HaplyExchange::run() noexcept {
     double due = monotonic_now();
     while (!is_over_.load() && exchange()) {
       tend_idle();
-      due = std::max(due + period, monotonic_now());
+      due = std::max(away_from_put(due + period), monotonic_now());
       pause_for(due - monotonic_now());
     }
   } catch (const std::exception&) {
@@ -133,10 +134,21 @@ void HaplyExchange::run() noexcept {
   eventfd_write(arrived_, 1);
 }
 
+// The moment, or one just after the next put() if it is so near before that: an answer that arrives in a step of the loop would interrupt it, and the
+// new force is sent at once instead.
+double HaplyExchange::away_from_put(double moment) const noexcept {
+  const double next = newest_.moment + interval_;
+  return interval_ > 0 && moment > next - QUIET_BEFORE && moment < next + QUIET_AFTER ? next + QUIET_AFTER : moment;
+}
+
 // One message and its answer. A service that does not answer gets the next message all the same, because it may be zero force. False: the connection
 // is over.
 bool HaplyExchange::exchange() {
-  put_.take(newest_);
+  const Put before = newest_;
+  if (put_.take(newest_)) {
+    interval_ = (newest_.moment - before.moment) / static_cast<double>(newest_.number - before.number);
+    if (before.number == 0 || interval_ > watchdog_) interval_ = 0;
+  }
   const bool is_zero = wants_zero(newest_);
   if (!socket_->send(is_zero ? zero_ : write_forces(devices_, newest_.forces, version_), SEND_PATIENCE)) return false;
   ++owed_;

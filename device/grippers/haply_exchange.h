@@ -62,6 +62,7 @@ class HaplyExchange {
   void run() noexcept;
   bool exchange();
   void read();
+  double away_from_put(double moment) const noexcept;
   bool wants_zero(const Put& newest) const noexcept;
   void tend_idle();
 
@@ -78,6 +79,7 @@ class HaplyExchange {
   std::uint64_t put_number_ = 0;  // of the one thread
   // of the thread that speaks
   Put newest_;
+  double interval_ = 0;      // s between two puts; 0: unknown
   std::string text_, next_;  // messages
   std::int64_t owed_ = 0;    // answers that have not come
   int surplus_ = 0;          // unasked messages, less the answers since
