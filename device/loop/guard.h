@@ -26,7 +26,8 @@ class Guard {
 
   // The force to write: `wanted` clamped to the device's limits (the arm keeps its direction, and so does what is across, limited as the grip; a device
   // that cannot push each tip gets none of it), times the ramp from zero over the first ramp_s of ticks, and no further from the previous force than
-  // slew_N_s allows, each of the three. A force that is not finite counts as zero. After missed ticks of STALL or longer, in which a device's own watchdog may have acted, the first force is zero, whatever the ramp, and the ramp restarts.
+  // slew_N_s allows, each of the three. A force that is not finite counts as zero. After missed ticks of STALL or longer, in which a device's own
+  // watchdog may have acted, the first force is zero, whatever the ramp, and the ramp restarts.
   GripperForce limit(const GripperForce& wanted, std::int64_t number) noexcept;
 
   // The smallest number of periods that counts as a stall.

@@ -13,7 +13,7 @@ using core_f64::Vec3;
 
 namespace {
 
-// Of a body of density 1 about the origin: volume, and the integrals of x_i and x_i x_j.
+// A body of density 1: its volume, and about the origin the integrals of x_i and x_i x_j.
 struct BodyMoments {
   double volume = 0;
   Vec3 first{};

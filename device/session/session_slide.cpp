@@ -64,7 +64,8 @@ bool Session::slide(const HandPose& pose, double lifted, const core_f64::Load& l
   const Vec3 falls = glm::transpose(pose.rotation * grasp_.turn) * Vec3(0, -load.mass * live.force.gravity, 0);
   const double hold = by_hand ? sliding_.hand.hold_force(held.center, falls) : held.hold;
   const double needed = lifted > 0 ? lifted * hold : 0;
-  tick.safety_margin = tick.user_force - needed;
+  const double grip = still_grip(grasp_.normal, held.opening, live.force.max);
+  tick.safety_margin = grip - needed;
   tick.slip_distance = sliding_.distance;
   tick.slip_angle = sliding_.angle;
   if (!(lifted > 0)) sliding_.motion = {};
@@ -78,9 +79,9 @@ bool Session::slide(const HandPose& pose, double lifted, const core_f64::Load& l
   const double mu = live.force.friction, gamma = live.force.torsion, along = glm::dot(weight, line);
   SlideFriction friction;
   if (by_hand)
-    friction = hand_friction(body, across(weight), tick.user_force / needed, mu, gamma);
+    friction = hand_friction(body, across(weight), grip / needed, mu, gamma);
   else if (grasp_.is_antipodal)
-    friction = slide_friction(tick.user_force, along, mu, gamma);
+    friction = slide_friction(grip, along, mu, gamma);
   const Vec2 before = sliding_.motion.velocity;
   const SlideStep step = slide_step(body, across(weight), friction, seconds, sliding_.motion);
   // the arm carries what friction carries: the weight less what accelerates the vessel

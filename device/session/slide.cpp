@@ -115,7 +115,7 @@ SlideStep slide_step(const SlidingBody& given, Vec2 load, const SlideFriction& f
                      SlideMotion& motion) noexcept {
   SlideStep sum;
   SlidingBody body = given;
-  const int steps = std::clamp(static_cast<int>(std::ceil(seconds / LONGEST_SLIDE)), 1, MOST_STEPS);
+  const int steps = static_cast<int>(std::clamp(std::ceil(seconds / LONGEST_SLIDE), 1.0, double{MOST_STEPS}));
   const double h = seconds / steps, radius = friction.force > 0 ? friction.moment / friction.force : 0;
   for (int step = 0; step < steps; ++step) {
     if (motion.is_rest() && friction_share(body, load, friction) <= 1) break;

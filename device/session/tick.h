@@ -3,6 +3,7 @@
 // recorder and displays, and a recording is a list of ticks.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -47,6 +48,12 @@ constexpr bool is_held(SessionState state) {
 }
 
 constexpr bool is_returning(SessionState state) { return state == SessionState::slipped || state == SessionState::let_go; }
+
+// The grip force of the fingers, N: that at the grasp and what they have closed since, up to the largest feedback. What tilt and liquid add to the normal
+// force does not come from them, so that this equals Tick::user_force wherever the feedback is not clamped.
+constexpr double still_grip(double normal_at_grasp, double opening_force, double largest) {
+  return std::clamp(normal_at_grasp + opening_force, 0.0, largest);
+}
 
 // Why a session released its force.
 enum class Fault : std::uint8_t {
@@ -104,9 +111,9 @@ struct Tick {
   double normal_force = 0, opening_force = 0, feedback = 0;  // kernel 7
   double hold_force = NONE;                                  // physically required; infinite if the pinch is not antipodal
   double user_force = 0;  // the user's grip force: feedback less the torque's rise since the grasp
-  // Sliding in the fingers, with [live] slide: what the user's grip force exceeds the force by that holding takes now, N; the way of the contacts, where a turn counts at the soft finger's radius, and
-  // the vessel's turn about the line of the tips since the grasp, m and rad (right-handed from thumb to index finger, for a left hand left-handed);
-  // and the contacts' speed, m/s.
+  // Sliding in the fingers, with [live] slide. Margin: the grip force that counts there (still_grip) less what holding takes now, N. Since the grasp: the
+  // way of the contacts along the surface, m, in which a turn counts at the soft finger's radius; and the vessel's turn about the line of the tips, rad
+  // (right-handed from thumb to index finger, for a left hand left-handed). The contacts' speed, m/s.
   double safety_margin = NONE, slip_distance = 0, slip_angle = 0, slip_speed = 0;
   GripperForce wanted;   // of the method, device frame
   GripperForce written;  // after limits, ramp and slew, device frame

@@ -132,12 +132,15 @@ class SimGripper final : public Gripper {
   }
 
   void show(const Tick& tick) noexcept override {
+    if (is_held(tick.state) && !is_held(shown_.state)) normal_at_grasp_ = tick.normal_force;
     shown_.state = tick.state;
     shown_.vessel = tick.vessel;
     shown_.felt = tick.written.grip;
     shown_.load = is_held(tick.state) ? tick.feedback - tick.user_force : 0;
     shown_.weight = tick.weight;
-    shown_.holding = tick.slip_speed > FELT_SLIP ? tick.user_force - tick.safety_margin : 0;
+    shown_.holding = tick.slip_speed > FELT_SLIP
+                         ? still_grip(normal_at_grasp_, tick.opening_force, live_.scene.force.max) - tick.safety_margin
+                         : 0;
     const int vessel = user_.vessel();
     shown_.arrived = vessel >= 0 ? tick.arrived[vessel] : 0;
     shown_.flow = tick.flow;
@@ -197,6 +200,7 @@ class SimGripper final : public Gripper {
   std::mt19937_64 random_;
   GripperLimits limits_;
   SimSense shown_;
+  double normal_at_grasp_ = 0;  // F_n then, N
   SimCommand command_;
   int grasp_ = -1;
   double arm_damping_ = 0, arm_stiffness_ = 0;

@@ -50,7 +50,7 @@ std::vector<Tick> play_opened(const Scene& scene, Opening opening, std::int64_t 
       LIFTED + ticks);
 }
 
-// Of the vessel in the gripper's axes.
+// The vessel in the gripper's axes.
 struct InHand {
   Mat3 rotation;
   Vec3 place;
@@ -66,15 +66,21 @@ double lifted_share(const Scene& scene, const Tick& tick) {
 // A grip that holds at rest keeps the vessel where it is; one that does not lets it slide. This is the law of all sessions: the limit is the hold force.
 void expect_law(const Scene& scene, const std::vector<Tick>& record, int& held, int& sliding) {
   bool was_sliding = false;
+  double normal_at_grasp = 0;
   for (std::size_t k = 1; k < record.size(); ++k) {
     const Tick &before = record[k - 1], &tick = record[k];
+    if (is_held(tick.state) && !is_held(before.state)) normal_at_grasp = tick.normal_force;
     if (!is_held(tick.state) || !is_held(before.state)) {
       was_sliding = false;
       continue;
     }
     if (scene.live.slide_by == SlideBy::tips && std::isfinite(tick.hold_force)) {
       const double needed = lifted_share(scene, tick) * tick.hold_force;
-      ASSERT_NEAR(tick.safety_margin, tick.user_force - needed, 1e-9) << tick.number;
+      const double grip = std::clamp(normal_at_grasp + tick.opening_force, 0.0, scene.force.max);
+      ASSERT_NEAR(tick.safety_margin, grip - needed, 1e-9) << tick.number;
+      if (tick.feedback > 0 && tick.feedback < scene.force.max) {
+        ASSERT_NEAR(grip, tick.user_force, 1e-9) << tick.number;
+      }
     }
     const bool is_on_table = lifted_share(scene, tick) == 0;
     if (tick.safety_margin >= 0 && !was_sliding) {
@@ -271,6 +277,29 @@ TEST(SessionSlide, ByTheWholeHandTheLimitIsEffortOne) {
   EXPECT_GT(compared, 10);
   expect_law(scene, record, held, sliding);
   EXPECT_GT(held, 500);
+  const std::vector<Tick> opened = play_opened(
+      scene, [](std::int64_t n) { return 4e-6 * static_cast<double>(std::max<std::int64_t>(0, n - 50)); }, 1000);
+  expect_law(scene, opened, held, sliding);
+  EXPECT_GT(sliding, 50);
+}
+
+// At F_max what tilt adds to F_n no longer shows in the feedback, and fingers that hold still do not grip less.
+TEST(SessionSlide, ASaturatedFeedbackTakesNoGripAway) {
+  Scene scene = sliding_scene();
+  LiveScript script = script_for(scene);
+  scene.force.max = 3;
+  int saturated = 0;
+  double normal_at_grasp = -1;
+  for (const Tick& tick : play_session(scene, script)) {
+    if (!is_held(tick.state)) continue;
+    if (normal_at_grasp < 0) normal_at_grasp = tick.normal_force;
+    if (tick.feedback < scene.force.max || tick.normal_force <= normal_at_grasp + 0.1) continue;
+    ++saturated;
+    const double needed = lifted_share(scene, tick) * tick.hold_force;
+    EXPECT_NEAR(tick.safety_margin + needed, std::min(scene.force.max, normal_at_grasp + tick.opening_force), 1e-9) << tick.number;
+    EXPECT_LT(tick.user_force, tick.safety_margin + needed) << tick.number;
+  }
+  EXPECT_GT(saturated, 100);
 }
 
 // ---- inertia ----

@@ -280,7 +280,6 @@ TEST(SimGripper, HoldsTheForceThatThePersonWants) {
   }
 }
 
-// The same task by other people, each with a hand and habits of their own; and each person again to the bit.
 // A person who reckons with more friction than there is lets the vessel slip, feels it, and squeezes one reaction later.
 TEST(SimGripper, SqueezesAReactionAfterASlip) {
   Scene scene = beside_each_other(shipped_live());
@@ -311,6 +310,7 @@ TEST(SimGripper, SqueezesAReactionAfterASlip) {
   EXPECT_EQ(lifted, 3);
 }
 
+// The same task by other people, each with a hand and habits of their own; and each person again to the bit.
 TEST(SimGripper, PeopleDifferAndEachIsTheSameAgain) {
   const auto session_of = [](std::uint64_t number) {
     Scene scene = shipped_live();
