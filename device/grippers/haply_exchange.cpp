@@ -8,9 +8,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <ctime>
 #include <exception>
+#include <system_error>
 
 #include "base/system/block_signals.h"
 #include "base/system/clock.h"
@@ -27,6 +29,7 @@ constexpr double IDLE_PAUSE = 0.1;                            // s between two l
 constexpr double ANSWER_PATIENCE = 5e-3;  // s: a quarter of the watchdog, so that a silent service still gets zero force in time
 constexpr int MOST_SURPLUS = 200;         // a flood hides which message is an answer, and so what became of a force
 constexpr int MOST_AT_ONCE = 1000;        // messages read at once: a flood must not keep the force from going out
+constexpr int MOST_IDLE = 100;            // the same on the idle connection
 constexpr long LOOK_NS = 200'000;         // between two looks for an answer in a signal handler
 
 int milliseconds(double seconds) { return static_cast<int>(std::ceil(std::max(seconds, 0.0) * 1e3)); }
@@ -44,6 +47,7 @@ HaplyExchange::HaplyExchange(std::unique_ptr<HaplySocket> socket, std::unique_pt
       zero_frame_(haply::masked_frame(zero_)),
       idle_descriptor_(idle_ ? idle_->descriptor() : -1),
       arrived_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+  if (arrived_ < 0) throw std::system_error(errno, std::generic_category(), "the event of a new state of the service");
   const BlockSignals inherited;
   thread_ = std::thread([this] { run(); });
 }
@@ -117,6 +121,7 @@ void HaplyExchange::run() noexcept {
   assist_realtime();
   const double period = 1 / HAPLY_RATE;
   try {
+    const HandlerStack stack;
     double due = monotonic_now();
     while (!is_over_.load() && exchange()) {
       tend_idle();
@@ -126,8 +131,9 @@ void HaplyExchange::run() noexcept {
   } catch (const std::exception&) {
     ending_ = "no memory";
   }
-  socket_->send(zero_, SEND_PATIENCE);
-  idle_descriptor_ = -1;  // before: a signal handler must not use a number that was given back
+  const bool is_sent = socket_->send(zero_, SEND_PATIENCE);
+  idle_descriptor_ = -1;  // before: a signal handler must not send amid another frame, nor use a number that was given back
+  if (!is_sent && idle_) idle_->send(zero_, SEND_PATIENCE);
   socket_->close(GOODBYE_PATIENCE);
   if (idle_) idle_->close(GOODBYE_PATIENCE);
   is_open_ = false;
@@ -152,6 +158,7 @@ bool HaplyExchange::exchange() {
   const bool is_zero = wants_zero(newest_);
   if (!socket_->send(is_zero ? zero_ : write_forces(devices_, newest_.forces, version_), SEND_PATIENCE)) return false;
   ++owed_;
+  if (!is_zero) unconfirmed_ = owed_;
   // all answers that are due, so that a late one does not leave each later state one message old; and what comes unasked
   const double end = monotonic_now() + ANSWER_PATIENCE;
   HaplySocket::Got got = HaplySocket::Got::nothing;
@@ -163,6 +170,10 @@ bool HaplyExchange::exchange() {
     if (owed_ > 0) {
       --owed_;
       surplus_ = std::max(surplus_ - 1, 0);
+      if (unconfirmed_ > 0)
+        --unconfirmed_;
+      else
+        ++zeros_;
     } else {
       ++unasked_count_;
       ++surplus_;
@@ -174,7 +185,7 @@ bool HaplyExchange::exchange() {
   }
   if (got == HaplySocket::Got::closed) return false;
   if (count == 0) return true;
-  if (is_zero && owed_ == 0) ++zeros_;
+  if (got == HaplySocket::Got::nothing) owed_ = 0;  // an answer that did not come in the whole wait must not prolong each later one
   read();
   return true;
 }
@@ -195,7 +206,9 @@ void HaplyExchange::read() {
 void HaplyExchange::tend_idle() {
   if (idle_descriptor_ < 0 || monotonic_now() - tended_ < IDLE_PAUSE) return;
   tended_ = monotonic_now();
-  if (idle_->receive(next_, 0) == HaplySocket::Got::closed) idle_descriptor_ = -1;
+  HaplySocket::Got got = HaplySocket::Got::message;
+  for (int k = 0; k < MOST_IDLE && got == HaplySocket::Got::message; ++k) got = idle_->receive(next_, 0);
+  if (got == HaplySocket::Got::closed) idle_descriptor_ = -1;
 }
 
 }  // namespace wholehand::device

@@ -22,7 +22,8 @@ constexpr double HAPLY_RATE = 4000;  // Hz: messages at most. The service itself
 // locks or allocates.
 class HaplyExchange {
  public:
-  // `idle` may be null: a second connection that stays silent, for panic(). Throws std::system_error if no thread can be started.
+  // `idle` may be null: a second connection that stays silent, for panic(). Throws std::system_error: the system has no
+  // thread or no descriptor left.
   HaplyExchange(std::unique_ptr<HaplySocket> socket, std::unique_ptr<HaplySocket> idle, const haply::Devices& devices,
                 const haply::Version& version, double watchdog);
   ~HaplyExchange();
@@ -42,8 +43,8 @@ class HaplyExchange {
   const char* ending() const noexcept { return ending_.load(); }
   // What was wrong with the last message, or ""; a text that stays valid.
   const char* wrong() const noexcept { return wrong_.load(); }
-  // Zero force instead of all that was put so far (for_good: and of all that will be). Returns whether the service has answered a message with zero
-  // force since, within `patience` s.
+  // Zero force instead of all that was put so far (for_good: and of all that will be). Returns whether a message of the service has come after zero
+  // force since, within `patience` s. It is the answer, unless the service also sends what nobody asked for.
   bool drop(bool for_good, double patience) noexcept;
   // The same in a signal handler, and by the idle connection too. Returns whether one of both took zero force.
   bool panic(double patience) noexcept;
@@ -79,14 +80,15 @@ class HaplyExchange {
   std::uint64_t put_number_ = 0;  // of the one thread
   // of the thread that speaks
   Put newest_;
-  double interval_ = 0;      // s between two puts; 0: unknown
-  std::string text_, next_;  // messages
-  std::int64_t owed_ = 0;    // answers that have not come
-  int surplus_ = 0;          // unasked messages, less the answers since
-  double tended_ = 0;        // s on the clock
+  double interval_ = 0;           // s between two puts; 0: unknown
+  std::string text_, next_;       // messages
+  std::int64_t owed_ = 0;         // answers that have not come
+  std::int64_t unconfirmed_ = 0;  // answers until the next one is to zero force
+  int surplus_ = 0;               // unasked messages, less the answers since
+  double tended_ = 0;             // s on the clock
   static constexpr std::uint64_t ALL = ~std::uint64_t{0};
   std::atomic<std::uint64_t> last_put_{0}, dropped_{0};  // numbers
-  std::atomic<std::uint64_t> zeros_{0};                  // messages with zero force that were answered
+  std::atomic<std::uint64_t> zeros_{0};                  // answers to messages with zero force
   std::atomic<bool> is_open_{true}, is_over_{false};
   std::atomic<const char*> wrong_{""}, ending_{"the service closed the connection"};
   std::atomic<std::int64_t> wrong_count_{0}, unasked_count_{0};

@@ -31,6 +31,8 @@ enum class HaplyFault {
   foreign,    // states of somebody else's devices before and within the own ones
   split,      // frames in pieces, slowly
   closed,     // closes each connection at its next message
+  skips_one,  // leaves one message without an answer
+  halves,     // answers every second message
 };
 
 struct HaplyOptions {
@@ -64,7 +66,7 @@ class HaplyService {
   void move(std::function<HaplyMotion(double)> motion);
   void rest_at(const HaplyMotion& motion);
 
-  // Of the last message of any client, N in Haply's frame; zero without a message.
+  // What the last message of any client has, N in Haply's frame; zero without a message.
   Vector force(std::size_t arm) const;
   bool has_force() const;
   std::size_t clients() const;

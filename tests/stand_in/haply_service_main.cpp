@@ -23,8 +23,8 @@ using wholehand::stand_in::HaplyFault;
 using wholehand::stand_in::HaplyMotion;
 
 constexpr double TRAVEL_END = 0.5, REST_END = 2;  // s
-constexpr const char* FAULTS[] = {"none",      "silent",   "flood",   "no_json", "no_state", "no_number",
-                                  "no_finite", "vanished", "foreign", "split",   "closed"};
+constexpr const char* FAULTS[] = {"none",     "silent",  "flood", "no_json", "no_state",  "no_number", "no_finite",
+                                  "vanished", "foreign", "split", "closed",  "skips_one", "halves"};
 
 struct Pose {
   double time = 0, x = 0, y = 0, z = 0, along_x = 1, along_y = 0, along_z = 0, gap = 0;

@@ -212,6 +212,21 @@ TEST(HaplyGripper, OthersDevicesAndClientsChangeNothing) {
   EXPECT_TRUE(rig.has_zero()) << "the next message renews the own force";
 }
 
+// An answer that never comes costs its own wait alone: zero force is confirmed again, and states arrive.
+TEST(HaplyGripper, AMissingAnswerIsForgotten) {
+  for (const HaplyFault fault : {HaplyFault::skips_one, HaplyFault::halves}) {
+    HaplyRig rig;
+    ASSERT_TRUE(rig.arrives({{2, 0, 0}, 0}, 0, {1, 0, 0}));
+    const std::int64_t messages = rig.service.messages();
+    rig.service.misbehave(fault);
+    ASSERT_TRUE(rig.service.wait([&] { return rig.service.messages() > messages + 4; }));
+    rig.service.rest_at(haply_moved({0, 0, 0.01}, {0, 0, 0.01}));
+    EXPECT_TRUE(rig.reads_until([&] { return std::abs(rig.state.position[1] - 0.01) < 1e-12; }));
+    EXPECT_TRUE(rig.service.wait([&] { return rig.gripper->release() == ReleaseResult::written; }));
+    EXPECT_FALSE(rig.service.has_force()) << "only an answer to zero force counts";
+  }
+}
+
 TEST(HaplyGripper, AStateInPiecesIsAState) {
   HaplyRig rig;
   rig.service.misbehave(HaplyFault::split);
@@ -223,9 +238,12 @@ TEST(HaplyGripper, AStateInPiecesIsAState) {
 // A closed connection ends the session, and no other one is opened: the person has to calibrate again.
 TEST(HaplyGripper, AClosedConnectionIsAnErrorForGood) {
   HaplyRig rig;
+  ASSERT_TRUE(rig.arrives({{2, 0, 0}, 0}, 0, {1, 0, 0}));
   rig.service.misbehave(HaplyFault::closed);
   ASSERT_EQ(rig.first_failure(ReadOutcome::error), ReadOutcome::error);
   EXPECT_STREQ(rig.gripper->last_error(), "the service closed the connection");
+  EXPECT_TRUE(rig.has_zero());
+  EXPECT_EQ(rig.service.other_messages(), 1) << "zero force by the connection that is left";
   rig.service.misbehave(HaplyFault::none);
   EXPECT_FALSE(rig.gripper->write({{1, 0, 0}, 0}));
   EXPECT_EQ(rig.read(), ReadOutcome::error);
@@ -284,29 +302,32 @@ TEST(HaplyGripper, APanicSendsZeroOnBothConnections) {
   ASSERT_TRUE(rig.arrives({{2, 0, 0}, 0}, 0, {1, 0, 0}));
   EXPECT_EQ(rig.gripper->panic(), ReleaseResult::written);
   EXPECT_TRUE(rig.has_zero());
+  EXPECT_TRUE(rig.service.wait([&] { return rig.service.other_messages() > 0; })) << "by the idle connection";
   rig.gripper->write({{2, 0, 0}, 0});
   EXPECT_TRUE(rig.has_zero());
 }
 
-// A whole session on the stand-in: the guard and the loop find nothing wrong, and the end is zero force.
+// A whole session on the stand-in: the guard and the loop find nothing wrong, and the end is zero force. A service that is silent on a busy machine
+// must end the session; not five times in a row.
 TEST(HaplyGripper, ASessionEndsWithZeroForce) {
-  HaplyRig rig;
-  rig.service.rest_at(haply_moved({-0.03, 0, 0}, {0.03, 0, 0}));
-  ASSERT_TRUE(rig.reads_until([&] { return std::abs(rig.state.gap - 0.06) < 1e-12; }));
-  Session session(rig.scene, rig.gripper->limits().gap);
-  LoopOptions options;
-  options.seconds = 0.2;
-  options.is_simulated = true;  // no clock: one tick for each state of the service
-  HapticLoop loop(rig.scene.live, *rig.gripper, session, {}, options);
-  const std::atomic<bool> stop{false};
-  loop.run(stop);
-  const LoopReport& report = loop.report();
-  if (report.fault == Fault::none) {  // else the service was silent on a busy machine, which must end it
-    EXPECT_EQ(report.release, ReleaseResult::written) << report.release_error;
-  } else {
-    EXPECT_EQ(report.fault, Fault::timeout) << report.error;
+  bool is_clean = false;
+  for (int k = 0; k < 5 && !is_clean; ++k) {
+    HaplyRig rig;
+    rig.service.rest_at(haply_moved({-0.03, 0, 0}, {0.03, 0, 0}));
+    ASSERT_TRUE(rig.reads_until([&] { return std::abs(rig.state.gap - 0.06) < 1e-12; }));
+    Session session(rig.scene, rig.gripper->limits().gap);
+    LoopOptions options;
+    options.seconds = 0.2;
+    options.is_simulated = true;  // no clock: one tick for each state of the service
+    HapticLoop loop(rig.scene.live, *rig.gripper, session, {}, options);
+    const std::atomic<bool> stop{false};
+    loop.run(stop);
+    const LoopReport& report = loop.report();
+    EXPECT_TRUE(report.fault == Fault::none || report.fault == Fault::timeout) << report.error;
+    is_clean = report.fault == Fault::none && report.release == ReleaseResult::written;
+    EXPECT_TRUE(rig.has_zero());
   }
-  EXPECT_TRUE(rig.has_zero());
+  EXPECT_TRUE(is_clean);
 }
 
 }  // namespace
