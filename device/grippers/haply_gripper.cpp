@@ -29,7 +29,7 @@ constexpr std::uint32_t CLOSING_BUTTON = 1;
 
 Triple difference(const Triple& a, const Triple& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-// Of a unit quaternion w, x, y, z in Haply's frame, in the device frame.
+// The rotation in the device frame, by a unit quaternion w, x, y, z in Haply's frame.
 glm::dmat3 turn_of(const std::array<double, 4>& q) {
   const Triple v = haply::from_haply({q[1], q[2], q[3]});
   const double w = q[0], x = v[0], y = v[1], z = v[2];
@@ -74,7 +74,7 @@ class HaplyGripper final : public Gripper {
  public:
   HaplyGripper(HaplyService service, std::unique_ptr<HaplySocket> idle, const haply::Devices& devices, const HostPort& at,
                const Scene& scene, double watchdog)
-      : lock_(fmt::format("haply-{}", at.port)),
+      : lock_(fmt::format("haply-{}-{}", service.socket->peer(), at.port)),
         place_(haply_place(at)),
         devices_(devices),
         has_two_(devices.count() == 2),

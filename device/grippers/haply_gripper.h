@@ -13,7 +13,8 @@
 
 namespace wholehand::device {
 
-// Of two devices: each tip bears half of the arm's force, the grip's and what is across, so that 8 / 2 + 6 = 10 N is exceeded only with a force across.
+// The most of two devices: each tip bears half of the arm's force, the grip's and what is across, so that 8 / 2 + 6 = 10 N is exceeded only with a
+// force across.
 constexpr double TWO_TIPS_FORCE = 8, TWO_TIPS_GRIP = 6;  // N
 
 // How the workspace is calibrated. Each device must first move, so that one that nobody holds does not count as still.

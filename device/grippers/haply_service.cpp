@@ -20,7 +20,7 @@ haply::Version find_version(const HostPort& at, const std::string& place) {
   const char* wrong = haply::read_version(http_get(at, "/version", CONNECT_PATIENCE), version);
   if (wrong && at.port == haply::SERVICE_PORT)
     wrong = haply::read_version(http_get({at.host, haply::OLD_PORT}, "/version", CONNECT_PATIENCE), version);
-  if (wrong) throw failure_error(fmt::format("{}: the service does not tell its version (GET /version): {}", place, UPDATE));
+  if (wrong) throw failure_error(fmt::format("{}: the service does not report its version (GET /version): {}", place, UPDATE));
   if (version < haply::OLDEST_VERSION)
     throw failure_error(fmt::format("{}: the service is {}.{}: {}", place, version.major, version.minor, UPDATE));
   return version;
@@ -53,8 +53,7 @@ haply::Devices named_devices(const haply::Inventory& inventory, const HaplyAddre
 std::string haply_place(const HostPort& at) {
   const HostPort usual = HaplyAddress{}.at;
   if (at.host == usual.host) return at.port == usual.port ? "haply" : fmt::format("haply:{}", at.port);
-  const bool has_brackets = at.host.find(':') != std::string::npos;
-  return fmt::format("haply:{}{}{}:{}", has_brackets ? "[" : "", at.host, has_brackets ? "]" : "", at.port);
+  return "haply:" + authority(at);
 }
 
 HaplyService meet_haply_service(const HostPort& at) {

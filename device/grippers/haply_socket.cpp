@@ -24,13 +24,16 @@ using asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
 constexpr std::size_t LARGEST_MESSAGE = 1 << 20;  // bytes: many devices with all that the service says of each
+// What runs without a wait: the stream answers pings within a read, and a flood of them would have no end.
+constexpr int MOST_HANDLERS = 64;
 
 // Runs what was started until it is done. False: the patience was over before.
 template <class IsDone>
 bool run_until(asio::io_context& context, double patience, const IsDone& is_done) {
   using Clock = std::chrono::steady_clock;
   context.restart();
-  if (patience <= 0) context.poll();
+  for (int k = 0; patience <= 0 && k < MOST_HANDLERS && !is_done() && context.poll_one() > 0; ++k) {
+  }
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience));
   while (!is_done() && context.run_one_until(end) > 0) {
   }
@@ -94,7 +97,7 @@ HaplySocket::HaplySocket(const HostPort& at, const std::string& place, double pa
   }
   parts_->stream.read_message_max(LARGEST_MESSAGE);
   bool is_done = false;
-  parts_->stream.async_handshake(fmt::format("{}:{}", at.host, at.port), "/", [&](const ErrorCode& result) {
+  parts_->stream.async_handshake(authority(at), "/", [&](const ErrorCode& result) {
     error = result;
     is_done = true;
   });
@@ -161,7 +164,17 @@ void HaplySocket::close(double patience) noexcept {
   }
 }
 
+std::string HaplySocket::peer() const {
+  ErrorCode error;
+  const auto address = parts_->stream.next_layer().remote_endpoint(error).address();
+  return address.is_loopback() ? "127.0.0.1" : address.to_string();
+}
+
 int HaplySocket::descriptor() const noexcept { return parts_->stream.next_layer().native_handle(); }
+
+std::string authority(const HostPort& at) {
+  return at.host.find(':') == std::string::npos ? fmt::format("{}:{}", at.host, at.port) : fmt::format("[{}]:{}", at.host, at.port);
+}
 
 std::string http_get(const HostPort& at, const std::string& target, double patience) noexcept {
   namespace http = beast::http;
@@ -171,7 +184,7 @@ std::string http_get(const HostPort& at, const std::string& target, double patie
     ErrorCode error;
     if (!connect(context, socket, at, patience, error)) return "";
     http::request<http::empty_body> request{http::verb::get, target, 11};
-    request.set(http::field::host, fmt::format("{}:{}", at.host, at.port));
+    request.set(http::field::host, authority(at));
     http::response<http::string_body> response;
     beast::flat_buffer buffer{LARGEST_MESSAGE};
     bool is_done = false;

@@ -15,8 +15,8 @@ class HaplySocket {
  public:
   enum class Got : std::uint8_t { message, nothing, closed };
 
-  // Connects within `patience` s. Throws Error (failure) that begins with `place`, the address in words: nothing listens there, it does not answer,
-  // or it does not speak WebSocket.
+  // Connects within `patience` s for each step; the resolution of a name has the patience of the system. Throws Error (failure) that begins with
+  // `place`, the address in words: nothing listens there, it does not answer, or it does not speak WebSocket.
   HaplySocket(const HostPort& at, const std::string& place, double patience);
   ~HaplySocket();
   HaplySocket(const HaplySocket&) = delete;
@@ -28,7 +28,9 @@ class HaplySocket {
   Got receive(std::string& into, double patience) noexcept;
   // Says goodbye, and closes in any case.
   void close(double patience) noexcept;
-  // Of the connection: a signal handler may send a whole frame there while no other call sends.
+  // The address of the other end: one text for all addresses of this machine's loopback.
+  std::string peer() const;
+  // The file descriptor: a signal handler may send a whole frame there while no other call sends.
   int descriptor() const noexcept;
 
  private:
@@ -36,7 +38,11 @@ class HaplySocket {
   std::unique_ptr<Parts> parts_;
 };
 
-// The body of GET http://HOST:PORT/target; empty: no answer within `patience` s, or one that is no success.
+// HOST:PORT, with an IPv6 HOST in brackets.
+std::string authority(const HostPort& at);
+
+// The body of GET http://HOST:PORT/target; empty: no answer within `patience` s (for each step; not for the resolution of a name), or one that is no
+// success.
 std::string http_get(const HostPort& at, const std::string& target, double patience) noexcept;
 
 }  // namespace wholehand::device

@@ -42,7 +42,7 @@ TEST(HaplyMessages, AnInventoryNamesTheDevicesAndTheirSides) {
   EXPECT_FALSE(found.is_old);
 }
 
-TEST(HaplyMessages, AnInventoryThatIsNoneIsSaidSo) {
+TEST(HaplyMessages, AnInventoryThatIsNoneIsReported) {
   Inventory found;
   for (const char* text : {"", "[]", "null", "{", "\"inverse3\"", "\xff\xfe"})
     EXPECT_STREQ(read_inventory(text, found), "a message that is not a JSON object") << text;

@@ -47,7 +47,7 @@ int closed_port() {
   return service.port();
 }
 
-TEST(HaplyOpening, NoServiceIsSaidAtOnceAndHowToStartIt) {
+TEST(HaplyOpening, NoServiceIsReportedAtOnceWithHowToStartIt) {
   const int port = closed_port();
   try {
     open_haply({{"127.0.0.1", port}, {}}, live_scene(), LONG_WATCHDOG, [](const std::string&) {});
@@ -76,7 +76,8 @@ TEST(HaplyOpening, AnOldServiceHasToBeUpdated) {
   before.version = "3.0.7.0";
   expect_refused(before, "PLACE: the service is 3.0: update it in the Haply Hub to 3.1 or later");
   before.version = "";
-  expect_refused(before, "PLACE: the service does not tell its version (GET /version): update it in the Haply Hub to 3.1 or later");
+  expect_refused(before,
+                 "PLACE: the service does not report its version (GET /version): update it in the Haply Hub to 3.1 or later");
 }
 
 TEST(HaplyOpening, TheDevicesMustBeThere) {
@@ -116,14 +117,23 @@ TEST(HaplyOpening, TwoDevicesOfOneSideAreOpenedByName) {
 
 TEST(HaplyOpening, OneServiceServesOneSession) {
   const HaplyRig rig;
-  try {
-    open_haply(
-        rig.address(), rig.scene, LONG_WATCHDOG, [](const std::string&) {}, QUICK_CALIBRATION);
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::failure);
-    EXPECT_NE(std::string(error.what()).find("haply-" + std::to_string(rig.service.port())), std::string::npos) << error.what();
+  for (const char* const host : {"127.0.0.1", "localhost"}) {
+    try {
+      open_haply(
+          {{host, rig.service.port()}, {}}, rig.scene, LONG_WATCHDOG, [](const std::string&) {}, QUICK_CALIBRATION);
+      ADD_FAILURE() << host;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::failure);
+      EXPECT_NE(std::string(error.what()).find("haply-127.0.0.1-" + std::to_string(rig.service.port())), std::string::npos)
+          << error.what();
+    }
   }
+}
+
+TEST(HaplyOpening, AnIPv6HostHasBrackets) {
+  EXPECT_EQ(authority({"::1", 10001}), "[::1]:10001") << "as the Host of a request needs it";
+  EXPECT_EQ(haply_place({"::1", 10001}), "haply:[::1]:10001") << "as --device takes it";
+  EXPECT_EQ(authority({"10.0.0.7", 80}), "10.0.0.7:80");
 }
 
 TEST(HaplyOpening, NamesAreChosenBeforeSides) {
@@ -136,7 +146,7 @@ TEST(HaplyOpening, NamesAreChosenBeforeSides) {
   EXPECT_EQ(choose_haply_devices(two, {}).grip, "") << "two tips need none";
 }
 
-TEST(HaplyOpening, WhatIsNoServiceIsSaidSo) {
+TEST(HaplyOpening, WhatIsNoServiceIsReported) {
   HaplyOptions mute;
   mute.says_nothing = true;
   expect_refused(mute, "PLACE: what answers there names no devices; give the port of the Inverse Service");
