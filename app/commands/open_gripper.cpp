@@ -45,7 +45,7 @@ HostPort parse_osc_place(const std::string& text) {
   return place;
 }
 
-// Of an id as `devices` shows it: what an address can hold.
+// Whether an address can hold it as the id of a device.
 bool is_haply_id(const std::string& id) {
   const auto is_plain = [](char letter) { return letter > ' ' && letter <= '~' && letter != ',' && letter != '/'; };
   return !id.empty() && std::all_of(id.begin(), id.end(), is_plain);
@@ -68,8 +68,8 @@ std::optional<device::HaplyAddress> parse_haply(const std::string& device) {
     const std::string ids = device.substr(slash + 1);
     const std::size_t comma = ids.find(',');
     address.arms = {ids.substr(0, comma), comma == std::string::npos ? "" : ids.substr(comma + 1)};
-    if (!is_haply_id(address.arms[0]) || (comma != std::string::npos && !is_haply_id(address.arms[1])))
-      wrong = "behind the / it has no one or two ids of devices";
+    const bool has_ids = is_haply_id(address.arms[0]) && (comma == std::string::npos || is_haply_id(address.arms[1]));
+    if (wrong.empty() && !has_ids) wrong = "behind the / it needs one or two ids";
   }
   if (!wrong.empty()) {
     throw usage_error(
@@ -111,7 +111,8 @@ std::unique_ptr<device::Gripper> open_gripper(const std::string& device, const S
     return device::open_haply(*address, scene, watchdog, say);
   throw usage_error(
       fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, haply, "
-                  "haply:PORT, osc:PORT or osc:HOST:PORT; `wholehand devices` lists what is there",
+                  "haply:PORT, haply:HOST:PORT (these three also with /IDS), osc:PORT or osc:HOST:PORT; `wholehand devices` lists "
+                  "what is there",
                   in_quotes(device)));
 }
 
