@@ -109,11 +109,10 @@ std::unique_ptr<device::Gripper> open_gripper(const std::string& device, const S
   if (const std::optional<HostPort> place = osc_place(device)) return device::open_osc(*place, scene, say);
   if (const std::optional<device::HaplyAddress> address = parse_haply(device))
     return device::open_haply(*address, scene, watchdog, say);
-  throw usage_error(
-      fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, haply, "
-                  "haply:PORT, haply:HOST:PORT (these three also with /IDS), osc:PORT or osc:HOST:PORT; `wholehand devices` lists "
-                  "what is there",
-                  in_quotes(device)));
+  throw usage_error(fmt::format(
+      "--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, haply, "
+      "haply:PORT, haply:HOST:PORT, osc:PORT or osc:HOST:PORT; haply may end in /IDS; `wholehand devices` lists what is there",
+      in_quotes(device)));
 }
 
 }  // namespace wholehand
