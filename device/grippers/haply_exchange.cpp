@@ -133,8 +133,9 @@ void HaplyExchange::run() noexcept {
   }
   const bool is_sent = socket_->send(zero_, SEND_PATIENCE);
   idle_descriptor_ = -1;  // before: a signal handler must not send amid another frame, nor use a number that was given back
-  if (!is_sent && idle_) idle_->send(zero_, SEND_PATIENCE);
   socket_->close(GOODBYE_PATIENCE);
+  // the end of a connection discards what a flooding service had not read, zero force too
+  if (idle_ && (!is_sent || surplus_ > MOST_SURPLUS)) idle_->send(zero_, SEND_PATIENCE);
   if (idle_) idle_->close(GOODBYE_PATIENCE);
   is_open_ = false;
   eventfd_write(arrived_, 1);

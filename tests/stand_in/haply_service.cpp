@@ -287,7 +287,7 @@ bool HaplyService::answer(Connection& connection) {
       replace_number("1e999");
       break;
     case HaplyFault::flood:
-      for (int k = 0; k < 200; ++k) stream.write(asio::buffer(text));
+      for (int k = 0; k < 60; ++k) stream.write(asio::buffer(text));
       break;
     case HaplyFault::foreign:
       stream.write(asio::buffer(std::string(R"({"inverse3":[{"device_id":"FFFF","state":{}}]})")));
