@@ -28,6 +28,7 @@ constexpr double QUIET_BEFORE = 200e-6, QUIET_AFTER = 30e-6;  // s, about a put(
 constexpr double IDLE_PAUSE = 0.1;                            // s between two looks for a ping on the idle connection
 constexpr double ANSWER_PATIENCE = 5e-3;  // s: a quarter of the watchdog, so that a silent service still gets zero force in time
 constexpr int MOST_SURPLUS = 200;         // a flood hides which message is an answer, and so what became of a force
+constexpr int MUCH_SURPLUS = 50;          // from here on only zero force goes out, so that no other one waits to be read at the end
 constexpr int MOST_AT_ONCE = 1000;        // messages read at once: a flood must not keep the force from going out
 constexpr int MOST_IDLE = 100;            // the same on the idle connection
 constexpr long LOOK_NS = 200'000;         // between two looks for an answer in a signal handler
@@ -156,7 +157,7 @@ bool HaplyExchange::exchange() {
     interval_ = (newest_.moment - before.moment) / static_cast<double>(newest_.number - before.number);
     if (before.number == 0 || interval_ > watchdog_) interval_ = 0;
   }
-  const bool is_zero = wants_zero(newest_);
+  const bool is_zero = wants_zero(newest_) || surplus_ > MUCH_SURPLUS;
   if (!socket_->send(is_zero ? zero_ : write_forces(devices_, newest_.forces, version_), SEND_PATIENCE)) return false;
   ++owed_;
   if (!is_zero) unconfirmed_ = owed_;
