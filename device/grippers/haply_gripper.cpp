@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <glm/mat3x3.hpp>
 #include <optional>
 
 #include "base/system/clock.h"
 #include "base/text/error.h"
 #include "core/prepare.h"
+#include "core/quaternion.h"
 #include "core/vectors.h"
 #include "device/grippers/haply_exchange.h"
 #include "device/grippers/haply_service.h"
@@ -32,10 +32,7 @@ Triple difference(const Triple& a, const Triple& b) { return {a[0] - b[0], a[1] 
 // The rotation in the device frame, by a unit quaternion w, x, y, z in Haply's frame.
 glm::dmat3 turn_of(const std::array<double, 4>& q) {
   const Triple v = haply::from_haply({q[1], q[2], q[3]});
-  const double w = q[0], x = v[0], y = v[1], z = v[2];
-  return to_mat3({1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),  //
-                  2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),  //
-                  2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)});
+  return glm::mat3_cast(to_quat(Quaternion{v[0], v[1], v[2], q[0]}));
 }
 
 // The hand's opening above its closed gap: the tips that touch are the closed hand.

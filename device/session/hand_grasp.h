@@ -24,9 +24,11 @@ class HandGrasp {
   // strength, N. Infinite if no force holds it.
   double hold_force(core_f64::Vec3 center, core_f64::Vec3 weight) const noexcept;
 
- private:
   std::span<const core_f64::ContactPoint> contacts() const noexcept { return {contacts_.data(), count_}; }
+  core_f64::Vec3 center() const noexcept { return center_; }  // of the contacts
+  const core_f64::HandStrength& strength() const noexcept { return strength_; }
 
+ private:
   std::array<core_f64::ContactPoint, JOINT_COUNT> contacts_{};
   std::size_t count_ = 0;
   core_f64::HandStrength strength_;

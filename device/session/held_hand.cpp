@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/grip_effort.h"
 #include "core/load.h"
 #include "core/vectors.h"
 
@@ -17,21 +16,11 @@ HeldHand::HeldHand(const LiveScene& live, const Tick& tick, const std::array<Tri
   std::array<Vec3, JOINT_COUNT> joints;
   for (std::size_t j = 0; j < JOINT_COUNT; ++j) joints[j] = stance_.inward(live.mirror.in(posed[j]));
   const Vec3 apart = joints[INDEX_TIP] - joints[THUMB_TIP];
-  gap_ = glm::length(apart);
-  if (gap_ > 0) pinch_ = apart / gap_;
-  scale_ = core_f64::placed_scale(live.hand, joints);
-  std::array<core_f64::PressingJoint, JOINT_COUNT> pressing;
-  const int count = core_f64::find_contacts(live.hand, live.vessels[static_cast<std::size_t>(tick.vessel)].vessel, joints, scale_,
-                                            tick.touch_mask, pressing);
-  for (int i = 0; i < count; ++i) {
-    const core_f64::ContactPoint& contact = pressing[static_cast<std::size_t>(i)].contact;
-    contacts_.push_back(contact);
+  if (const double gap = glm::length(apart); gap > 0) pinch_ = apart / gap;
+  grasp_.take(live, live.vessels[static_cast<std::size_t>(tick.vessel)].vessel, joints, tick.touch_mask);
+  for (const core_f64::ContactPoint& contact : contacts())
     if (contact.is_tip) tips_.push_back(contact);
-  }
-  center_ = core_f64::contacts_center(contacts_);
 }
-
-core_f64::HandStrength HeldHand::strength() const { return core_f64::load_strength(live_.scene, gap_, scale_); }
 
 Triple HeldHand::place_out(Vec3 place) const { return live_.mirror.out(stance_.outward(place)); }
 

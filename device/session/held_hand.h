@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/contacts.h"
 #include "core/held.h"
+#include "device/session/hand_grasp.h"
 #include "device/session/live_scene.h"
 
 namespace wholehand::device {
@@ -17,10 +19,10 @@ class HeldHand {
   // `tick` has a held vessel, `posed` are the joints that rest on it, in the scene's world, and the scene has [strength].
   HeldHand(const LiveScene& live, const Tick& tick, const std::array<Triple, JOINT_COUNT>& posed);
 
-  const std::vector<core_f64::ContactPoint>& contacts() const { return contacts_; }
+  std::span<const core_f64::ContactPoint> contacts() const { return grasp_.contacts(); }
   const std::vector<core_f64::ContactPoint>& tips() const { return tips_; }  // of thumb and index finger
-  core_f64::Vec3 center() const { return center_; }                          // of the contacts
-  core_f64::HandStrength strength() const;
+  core_f64::Vec3 center() const { return grasp_.center(); }                  // of the contacts
+  const core_f64::HandStrength& strength() const { return grasp_.strength(); }
 
   // Between the vessel's frame and the scene's world.
   Triple place_out(core_f64::Vec3 place) const;
@@ -35,9 +37,8 @@ class HeldHand {
   const LiveScene& live_;
   Stance stance_;
   core_f64::Vec3 pinch_{1, 0, 0};
-  double gap_ = 0, scale_ = 1;
-  std::vector<core_f64::ContactPoint> contacts_, tips_;
-  core_f64::Vec3 center_{};
+  HandGrasp grasp_;
+  std::vector<core_f64::ContactPoint> tips_;
 };
 
 // The weight of a vessel with `volume` m3 of the scene's liquid (null: the empty vessel) with `up` in its frame. Liquid above the lip acts at the
